@@ -29,12 +29,19 @@ struct BookedSlots {
   const int *mesh;    // of each; null: there is one
 
   LSDCD_FN int mesh_of(std::size_t k) const { return mesh ? mesh[k] : 0; }
-  // Calls f(k) for each booked slot of block `at`.
-  template <class F>
-  LSDCD_FN void for_each(std::size_t at, const F &f) const
+  // Calls see(k) for each booked slot of block `at`, and flush(mesh) behind those of a mesh that follow each other: what a thread
+  // gathers of them goes to memory once, as threads wait for each other there.
+  template <class See, class Flush>
+  LSDCD_FN void for_each(std::size_t at, const See &see, const Flush &flush) const
   {
-    for (std::size_t k = at * kTotalsBlock; k < (at + 1) * kTotalsBlock && k < n; k++)
-      if (is_booked[k]) f(k);
+    int last = -1;
+    for (std::size_t k = at * kTotalsBlock; k < (at + 1) * kTotalsBlock && k < n; k++) {
+      if (!is_booked[k]) continue;
+      if (last >= 0 && last != mesh_of(k)) flush(last);
+      last = mesh_of(k);
+      see(k);
+    }
+    if (last >= 0) flush(last);
   }
 };
 
@@ -45,14 +52,24 @@ struct SeeEnergy {
 
   LSDCD_FN void operator()(std::size_t at) const
   {
-    in.for_each(at, [&](std::size_t k) {
-      EnergyRange &of = range[in.mesh_of(k)];
-      add_signed(reinterpret_cast<std::int64_t *>(&of.count), 1);
-      for (int row = 0; row < kEnergyRows; row++) {
-        const std::uint64_t exponent = exponent_field(in.rows[k].of[row]);
-        if (exponent > 0) raise_to(&of.exponent[row], exponent);
-      }
-    });
+    EnergyRange seen = {};
+    in.for_each(
+        at,
+        [&](std::size_t k) {
+          seen.count++;
+          for (int row = 0; row < kEnergyRows; row++) {
+            const std::uint64_t exponent = exponent_field(in.rows[k].of[row]);
+            if (exponent > seen.exponent[row]) seen.exponent[row] = exponent;
+          }
+        },
+        [&](int mesh) {
+          EnergyRange &of = range[mesh];
+          add_signed(reinterpret_cast<std::int64_t *>(&of.count),
+                     static_cast<std::int64_t>(seen.count));
+          for (int row = 0; row < kEnergyRows; row++)
+            if (seen.exponent[row] > 0) raise_to(&of.exponent[row], seen.exponent[row]);
+          seen = {};
+        });
   }
 };
 // Adds a block to the sums, which are 0 before.
@@ -63,14 +80,21 @@ struct SumEnergy {
 
   LSDCD_FN void operator()(std::size_t at) const
   {
-    in.for_each(at, [&](std::size_t k) {
-      const int mesh = in.mesh_of(k);
-      for (int row = 0; row < kEnergyRows; row++) {
-        const SumUnit unit = range[mesh].unit(row);
-        const Real number = in.rows[k].of[row];
-        if (number != 0 && unit.is_finite()) add_signed(&sums[mesh].of[row], unit.units(number));
-      }
-    });
+    EnergyUnits added = {};
+    in.for_each(
+        at,
+        [&](std::size_t k) {
+          for (int row = 0; row < kEnergyRows; row++) {
+            const SumUnit unit = range[in.mesh_of(k)].unit(row);
+            const Real number = in.rows[k].of[row];
+            if (number != 0 && unit.is_finite()) added.of[row] += unit.units(number);
+          }
+        },
+        [&](int mesh) {
+          for (int row = 0; row < kEnergyRows; row++)
+            if (added.of[row] != 0) add_signed(&sums[mesh].of[row], added.of[row]);
+          added = {};
+        });
   }
 };
 
