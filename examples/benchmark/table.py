@@ -49,31 +49,34 @@ def said(values, digits):
     return mean if len(values) < 2 else f"{mean} +- {values.std(ddof=1) / len(values)**0.5:.{digits}f} ({len(values)} fillings)"
 
 
-def answers(folder):
-    """Rows of the first table: what, LSDCD, the eight codes, LIGGGHTS and MUSEN run again."""
+def answers(folder, last, others):
+    """Rows of the first table: what, LSDCD, the eight codes, LIGGGHTS and MUSEN run again. Rates of a silo are of 0.5 s to `last`."""
     rows, mean = [], {}
-    for case, what, eight, again in (("silo_large_m1", "silo, large outlet, M1: 1000 grains a second", "23.2 within 5 %", "24.50, 24.25"),
-                                     ("silo_small_m1", "silo, small outlet, M1", "", "-, 7.74"),
-                                     ("silo_large_m2", "silo, large outlet, M2", "", "")):
-        rates = [rate(c) for c in fillings(folder, case, 3.5)]
+    curves = read(others / "silo.csv") if others else {}
+    for case, what, eight, names in (("silo_large_m1", f"silo, large outlet, M1: 1000 grains a second, 0.5 to {last:g} s", "23.2 within 5 % (0.5 to 3.5 s)", ("large_liggghts", "large_musen")),
+                                     ("silo_small_m1", "silo, small outlet, M1", "", ("small_musen",)),
+                                     ("silo_large_m2", "silo, large outlet, M2", "", ())):
+        rates = [rate(c, last=last) for c in fillings(folder, case, last)]
         if rates:
             mean[case] = np.mean(rates)
+            again = ", ".join(f"{rate(curves, name, last=last):.2f}" for name in names if name in curves)
             rows.append([what, said(rates, 2), eight, again])
     if "silo_large_m1" in mean and "silo_small_m1" in mean:
-        rows.append(["silo: large over small", f"{mean['silo_large_m1'] / mean['silo_small_m1']:.2f}", "3.10 +- 0.06", "-, 3.13"])
+        again = f"-, {rate(curves, 'large_musen', last=last) / rate(curves, 'small_musen', last=last):.2f}" if curves else ""
+        rows.append(["silo: large over small", f"{mean['silo_large_m1'] / mean['silo_small_m1']:.2f}", "3.10 +- 0.06", again])
     for cut in ("100", "even", "slivers"):
         for c in [read(path) for path in folder.glob(f"cut_{cut}.csv")]:
             parts = [rate(c, first=t / 10, last=t / 10 + 0.1) for t in range(3, 9)]
             rows.append([f"silo of 25 sides, {cut} triangles, 0.3 to 0.9 s", f"{rate(c, first=0.3, last=0.9):.2f} +- {np.std(parts, ddof=1) / 6**0.5:.2f} (parts of 0.1 s)", "", ""])
-    peaks = []
-    for c in fillings(folder, "drum", 1.7):
-        early, late = c["t"] < 1, (c["t"] > 1) & (c["t"] < 2)
-        most, least = np.argmax(np.where(early, c["z2_m1"], -1)), np.argmin(np.where(late, c["z2_m1"], np.inf))
-        peaks.append((c["t"][most], c["z2_m1"][most], c["t"][least], c["z2_m1"][least]))
-    for k, (what, digits, again) in enumerate((("drum: first maximum of M1 in zone 2, at s", 2, "0.6, 0.6"), ("... grains", 0, "22 861, 23 064"),
-                                               ("drum: its minimum, at s", 2, "1.5, 1.5"), ("... grains", 0, "21, 22"))):
-        if peaks:
-            rows.append([what, said([p[k] for p in peaks], digits), "", again])
+    for what, sign, first, end, again in (("drum: first maximum of M1 in zone 2, at s", 1, 0, 1, ("0.6, 0.6", "22 861, 23 064")),
+                                          ("drum: its minimum, at s", -1, 1, 1.7, ("1.5, 1.5", "21, 22"))):
+        peaks = []
+        for c in fillings(folder, "drum", end):
+            at = np.argmax(np.where((c["t"] > first) & (c["t"] < 2), sign * c["z2_m1"], -np.inf))
+            peaks.append((c["t"][at], c["z2_m1"][at]))
+        for k, (words, digits) in enumerate(((what, 2), ("... grains", 0))):
+            if peaks:
+                rows.append([words, said([p[k] for p in peaks], digits), "", again[k]])
     lowest = [c["z"].min() * 1000 for c in fillings(folder, "impact_25", 0.04)]
     if lowest:
         rows.append(["impact, 25 000: lowest place of the ball, mm, median",
@@ -135,9 +138,10 @@ def main():
     p = argparse.ArgumentParser(description=__doc__)
     p.add_argument("results", type=Path)
     p.add_argument("--others", type=Path)
+    p.add_argument("--last", type=float, default=3.5, metavar="S", help="end of the time of which rates of a silo are (default %(default)s)")
     p.add_argument("--out", type=Path, default=Path("."))
     a = p.parse_args()
-    runs.print_table(["", "LSDCD", "eight codes", "LIGGGHTS, MUSEN of 2026"], answers(a.results))
+    runs.print_table(["", "LSDCD", "eight codes", "LIGGGHTS, MUSEN of 2026"], answers(a.results, a.last, a.others))
     print()
     runs.print_table(["run", "steps", "s", "ms a step", "million grain-steps a second"], times(a.results))
     draw(a.results, a.out, a.others)
