@@ -1,196 +1,36 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A step of grains that are no spheres beside one of spheres, on one core, on facets whose edges are as long as the radius of the
-// sphere around a grain: on faces of a plane, on edges of ridges, in the folds between them, and close above a plane, where
-// no grain touches what it has listed. Grains lie in any way, sunk by a hundredth of their size, and are elsewhere by some 1e-3 of it in each step.
+// A step of grains that are no spheres beside one of spheres, on one core: those of shape_bed.h.
 #include "bench.h"
+#include "shape_bed.h"
 
-#include "contact/shape_search.h"
-#include "engine/shape_engine.h"
-#include "grid/flat_grid.h"
-#include "shape/superellipsoid.h"
-#include "support/grains.h"
-#include "support/laws.h"
-#include "support/random.h"
-#include "tree/triangle_table.h"
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
 #include <string>
-#include <vector>
 
 using namespace lsdcd;
 
 namespace {
-
-constexpr int kSteps = 20, kSide = 60;    // facets along x
-constexpr Real kSunk = 0.01, kWay = 1e-3, kDt = 1e-6;
-
-struct Kind {
-  const char *name;
-  bool is_sphere;
-  Vec3 half;
-  Real n;
-};
-constexpr Kind kKinds[] = {{"sphere", true, {1, 1, 1}, 2},
-                           {"ellipsoid 2:1:1", false, {2, 1, 1}, 2},
-                           {"n = 4", false, {1, 1, 1}, 4},
-                           {"n = 8", false, {1, 1, 1}, 8}};
-enum class Place { face, edge, fold, above };
-constexpr const char *kPlaces[] = {"at faces", "at edges", "in folds", "above faces"};
-
-constexpr Real kHeight = 0.3;    // of ridges over the length of a facet
-
-// A plane of triangles, or ridges along y, of which every second line is an edge that is 0.3 high.
-TriangleSoup terrain(Real length, bool has_ridges)
-{
-  TriangleSoup soup;
-  soup.source = has_ridges ? "ridges" : "plane";
-  const auto at = [&](int i, int j) {
-    return Vec3{i * length, j * length, has_ridges && i % 2 ? kHeight * length : 0};
-  };
-  for (int i = 0; i < kSide; i++)
-    for (int j = 0; j < kSide; j++) {
-      for (const Vec3 &corner :
-           {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)})
-        soup.corners.push_back(corner);
-    }
-  return soup;
-}
-
-// Grains on a terrain in kSteps steps.
-class ShapeBed {
- public:
-  ShapeBed(const Kind &kind, Place place, int n) :
-      shape_(make_superellipsoid(kind.half, kind.n, kind.n)),
-      mesh_(weld(terrain(shape_.farthest, place == Place::edge || place == Place::fold), -1)),
-      names_(mesh_), tree_(mesh_, names_), search_(tree_)
-  {
-    StepGridSettings grid;
-    grid.cutoff = shape_.farthest;
-    flat_ = FlatOf(build_grid(mesh_, grid, false));
-    EngineSettings e = hooke_history(1e5, 3e4, 50, 25, 0.5);
-    e.moves = e.contacts = true;
-    e.law().for_shapes = !kind.is_sphere;
-    engine_ = kind.is_sphere ? make_cpu_engine(e) : make_shape_engine(e);
-    engine_->set_grid(flat_.view());
-    if (!kind.is_sphere) engine_->set_tree(tree_);
-    lay(place, n, kind.is_sphere);
-    engine_->choose(at(0), kWay * 4 * shape_.farthest);
-    engine_->read_diagnostics();
-  }
-  void steps()
-  {
-    StepSettings step;
-    step.dt = kDt;
-    for (int k = 0; k < kSteps; k++) engine_->step(at(k), step);
-  }
-  double contacts() { return static_cast<double>(engine_->results().totals().contacts); }
-  // The mean number of faces within the radius of the sphere around a grain.
-  double listed() const { return listed_ / static_cast<double>(grains_.x.size()); }
-  std::size_t triangles() const { return mesh_.faces.size(); }
-
- private:
-  void lay(Place place, int n, bool is_sphere)
-  {
-    Random random(3);
-    NearFeatures near;
-    std::vector<Vec3> feet(n);
-    for (Vec3 &foot : feet)
-      foot = {uniform(random, 4, kSide - 4), uniform(random, 4, kSide - 4), 0};
-    // In the order of bins, as LAMMPS sorts its atoms.
-    std::sort(feet.begin(), feet.end(), [](const Vec3 &a, const Vec3 &b) {
-      const Real row = std::floor(a.y), other = std::floor(b.y);
-      return row != other ? row < other : a.x < b.x;
-    });
-    for (Vec3 &foot : feet) {
-      PlacedGrain g;
-      g.shape = shape_;
-      const Quaternion turn =
-          is_sphere ? Quaternion() : rotation_about(random_unit(random), uniform(random, 0, 3));
-      rows_of(turn, g.row);
-      // From where it touches, and the normal there.
-      const bool at_edge = place == Place::edge;
-      const Real depth = (place == Place::above ? -kSunk : kSunk) * shape_.nearest,
-                 tilt = at_edge ? uniform(random, -0.25, 0.25) : 0;
-      if (at_edge) foot.x = 2 * std::floor(foot.x / 2) + 1, foot.z = kHeight;
-      const Vec3 down = {std::sin(tilt), 0, -std::cos(tilt)};
-      g.centre =
-          place == Place::fold
-              ? in_fold(g, shape_.farthest * Vec3{2 * std::floor(foot.x / 2), foot.y, 0}, depth)
-              : shape_.farthest * foot + depth * down -
-                    g.turned(support(shape_, g.to_own(down)).point);
-      search_.find_near(g, shape_.farthest, near);
-      listed_ += static_cast<double>(near.n_faces());
-      grains_.add(g.centre, shape_.farthest);
-      turns_.push_back(turn);
-    }
-    for (int k = 0; k < kSteps; k++)
-      for (int i = 0; i < n; i++) {
-        x_.push_back(grains_.x[i] + kWay * shape_.farthest *
-                                        Vec3{uniform(random, -1, 1), uniform(random, -1, 1), 0});
-        GrainShape row;
-        row.half = shape_.half;
-        row.n1 = shape_.n1;
-        row.n2 = shape_.n2;
-        row.inertia_over_mass = inertia_over_mass(shape_);
-        row.turn = rotation_about(random_unit(random), kWay) * turns_[i];
-        shapes_.push_back(row);
-      }
-  }
-  // Returns where a grain is `depth` deep in both sides of a fold through a point.
-  static Vec3 in_fold(const PlacedGrain &g, const Vec3 &at, Real depth)
-  {
-    const Real size = std::hypot(Real(1), kHeight), sine = kHeight / size, cosine = 1 / size;
-    const auto distance = [&](Real side) {
-      return support(g.shape, g.to_own({side * sine, 0, -cosine})).height - depth;
-    };
-    const Real left = distance(-1), right = distance(1);
-    return at + Vec3{(left - right) / (2 * sine), 0, (left + right) / (2 * cosine)};
-  }
-  Spheres at(int k)
-  {
-    const std::size_t first = k * grains_.x.size();
-    Spheres s = grains_.spheres();
-    s.x = &x_[first].x;
-    s.shapes = &shapes_[first];
-    return s;
-  }
-
-  Superellipsoid shape_;
-  WeldedMesh mesh_;
-  TriangleTable names_;
-  TriangleTree tree_;
-  ShapeSearch search_;
-  FlatOf<StepGrid> flat_;
-  std::unique_ptr<WallEngine> engine_;
-  Grains grains_;
-  std::vector<Quaternion> turns_;
-  std::vector<Vec3> x_;    // of all grains, step after step
-  std::vector<GrainShape> shapes_;
-  double listed_ = 0;
-};
 
 void measure(const BenchOptions &o, BenchRows &rows)
 {
   const int n = static_cast<int>(o.spheres > 0 ? o.spheres : o.quick ? 200 : 2000);
   const int repeats = o.repeats > 0 ? o.repeats : o.quick ? 1 : 21;
   rows.begin(Device::cpu);
-  for (const Place place : {Place::face, Place::edge, Place::fold, Place::above}) {
-    for (const Kind &kind : kKinds) {
-      if (place == Place::above && kind.is_sphere) continue;    // it has no list
+  for (const ShapePlace place :
+       {ShapePlace::face, ShapePlace::edge, ShapePlace::fold, ShapePlace::above}) {
+    for (const ShapeKind &kind : kShapeKinds) {
+      if (place == ShapePlace::above && kind.is_sphere) continue;    // it has no list
       ShapeBed bed(kind, place, n);
       BenchRow row;
-      row.what = std::string(kind.name) + ", " + kPlaces[static_cast<int>(place)];
+      row.what = std::string(kind.name) + ", " + kShapePlaces[static_cast<int>(place)];
       row.triangles = bed.triangles();
       row.spheres = n;
       row.order = "sorted";
       row.timing = time_it(repeats, [&] { bed.steps(); });
-      const double each = 1e6 * row.timing.min_ms / (kSteps * n);
-      row.facts = format("steps=%d ns_each=%.1f contacts=%.3f listed=%.1f ns_listed=%.1f", kSteps,
-                         each, bed.contacts() / n, bed.listed(), each / bed.listed());
+      const double each = 1e6 * row.timing.min_ms / (ShapeBed::kSteps * n);
+      row.facts =
+          format("steps=%d ns_each=%.1f contacts=%.3f listed=%.1f ns_listed=%.1f", ShapeBed::kSteps,
+                 each, bed.contacts() / n, bed.listed(), each / bed.listed());
       rows.add(row);
     }
   }

@@ -5,7 +5,7 @@
 """A step on the CPU executes no more instructions per sphere than it did: counted by valgrind, so
 that a slower step shows without timing.
 
-usage: test_instructions.py [--keep], with LSDCD_COUNT_STEPS (the program) and LSDCD_COMPILER set
+usage: test_instructions.py [--keep], with LSDCD_COUNT_STEPS and LSDCD_COUNT_SHAPES (the programs) and LSDCD_COMPILER set
 """
 import os
 import pathlib
@@ -19,9 +19,9 @@ import kept_numbers
 ROOM = 0.05
 
 
-def count(program, style, which):
+def count(program, *words):
     done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
-                           "--toggle-collect=counted_steps", program, style, which],
+                           "--toggle-collect=counted_steps", program, *words],
                           env={**os.environ, "OMP_NUM_THREADS": "1"}, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True)
     scene = re.search(r"^(\d+) spheres, (\d+) steps", done.stdout, re.M)
@@ -35,5 +35,8 @@ if not shutil.which("valgrind"):
     kept_numbers.skip("no valgrind")
 found = {f"{style}, near list {which}": count(os.environ["LSDCD_COUNT_STEPS"], style, which)
          for style in ("hooke", "hertz/history") for which in ("kept", "anew")}
+for i, kind in enumerate(("ellipsoid 2:1:1", "n = 4", "n = 8"), start=1):
+    for k, place in enumerate(("at faces", "at edges", "in folds")):
+        found[f"{kind}, {place}"] = count(os.environ["LSDCD_COUNT_SHAPES"], str(i), str(k))
 sys.exit(kept_numbers.compare(pathlib.Path(__file__).with_name("step_instructions.csv"),
                               os.environ["LSDCD_COMPILER"], found, ROOM, "per sphere and step") > 0)
