@@ -308,12 +308,13 @@ bool ShapeSearch::find_by_owner(const PlacedGrain &grain, NearFeatures &near)
     rim = plane.rim_end;
     inner = plane.inner_end;
   }
+  lines_.clear();
+  look_at_likely_edges(grain, near, unsure);
   bool has_deep = false;
   for (std::uint32_t i = 0; i < near.vertices.size(); i++) {
     if (vertex_[i] == State::may_be) look_at_vertex(grain, near, i);
     has_deep |= vertex_[i] == State::is_deep;
   }
-  lines_.clear();
   for (std::uint32_t i = 0; i < near.edges.size(); i++) {
     if (edge_[i] == State::may_be) look_at_edge(grain, near, i);
     has_deep |= edge_[i] == State::is_deep;
@@ -348,12 +349,12 @@ void ShapeSearch::look_at_plane(const PlacedGrain &grain, const NearFeatures &ne
     // On the ray to the point of the surface, so that it is in the grain.
     const Vec3 section = grain.centre + (std::fabs(height) / (std::fabs(height) + overlap)) * arm;
     for (; rim < plane.rim_end; rim++)
-      if (is_cut(grain, near.rim[rim].primitive, section))
+      if (is_cut(grain, near.rim[rim].primitive, section, &near.rim[rim]))
         deep_.push_back({near.rim[rim].primitive, &plane, &near.rim[rim]});
       else
         rule_out(near.rim[rim]);
     for (; inner < plane.inner_end; inner++)
-      if (is_cut(grain, near.inner[inner], section))
+      if (is_cut(grain, near.inner[inner], section, nullptr))
         deep_.push_back({near.inner[inner], &plane, nullptr});
     return;
   }
@@ -440,6 +441,7 @@ bool ShapeSearch::may_be_at(const NearFeatures::RimFace &face) const
 // Begins with those edges and vertices that the grain may cut.
 void ShapeSearch::list_cut(const PlacedGrain &grain, const NearFeatures &near)
 {
+  cut_.resize(near.edges.size());
   edge_.resize(near.edges.size() + 1);
   vertex_.resize(near.vertices.size() + 1);
   edge_.back() = vertex_.back() = State::cannot_be;
@@ -449,10 +451,9 @@ void ShapeSearch::list_cut(const PlacedGrain &grain, const NearFeatures &near)
                      : State::cannot_be;
   for (std::size_t i = 0; i < near.edges.size(); i++) {
     const int *ends = view_.edges + 2 * near.edges[i].edge;
-    edge_[i] = may_cut(grain.shape, grain.own_point(view_.vertices[ends[0]]),
-                       grain.own_point(view_.vertices[ends[1]]))
-                   ? State::may_be
-                   : State::cannot_be;
+    cut_[i] = may_cut(grain.shape, grain.own_point(view_.vertices[ends[0]]),
+                      grain.own_point(view_.vertices[ends[1]]));
+    edge_[i] = cut_[i] ? State::may_be : State::cannot_be;
   }
 }
 
@@ -552,32 +553,83 @@ void ShapeSearch::look_at_vertex(const PlacedGrain &grain, const NearFeatures &n
   local_.push_back(m);
 }
 
+// Looks first at the edges inside which an ellipsoid of the same half-axes is deepest: where the foot is surely inside one, neither its ends
+// nor others of its line are looked at. What depends on its ends, or is deep, is left for later.
+void ShapeSearch::look_at_likely_edges(const PlacedGrain &grain, const NearFeatures &near,
+                                       Real unsure)
+{
+  const Superellipsoid &s = grain.shape;
+  const auto scaled = [&](const Vec3 &x) {
+    return Vec3{x.x / s.half.x, x.y / s.half.y, x.z / s.half.z};
+  };
+  for (std::uint32_t i = 0; i < near.edges.size(); i++) {
+    if (edge_[i] != State::may_be) continue;
+    const EdgeOfGrain edge = edge_of(grain, near, i);
+    const Vec3 from = scaled(edge.from), way = scaled(edge.to) - from;
+    const Real towards = -dot(from, way);
+    if (!(towards > 0 && towards < norm_sq(way))) continue;
+    if (is_off_a_line(s, edge.from, edge.to)) {
+      edge_[i] = State::cannot_be;
+      continue;
+    }
+    const EdgeMinimum m = minimum_of(s, edge);
+    const bool is_deep = !m.line.is_highest || !(-m.line.distance < s.rho);
+    if (m.line.distance < 0 &&
+        (is_deep || (m.is_here && !(m.at > unsure && m.at < m.length - unsure))))
+      continue;
+    settle_edge(grain, near, i, edge, m);
+    if (edge_[i] == State::is)
+      for (const std::uint32_t v : near.edges[i].vertex) leave(vertex_[v], 0);
+  }
+}
+
 void ShapeSearch::look_at_edge(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i)
 {
-  const NearFeatures::Edge &edge = near.edges[i];
-  const Superellipsoid &s = grain.shape;
+  const std::uint32_t *vertex = near.edges[i].vertex;
   edge_[i] = State::cannot_be;
-  if (vertex_[edge.vertex[0]] == State::is || vertex_[edge.vertex[1]] == State::is) return;
-  const int *ends = view_.edges + 2 * edge.edge;
-  const Vec3 from = grain.own_point(view_.vertices[ends[0]]),
-             to = grain.own_point(view_.vertices[ends[1]]);
-  if (is_off_a_line(s, from, to)) return;
-  const Real length = norm(to - from);
-  const Vec3 along = (1 / length) * (to - from);
-  const TangentMinimum line = TangentAboutLine(s, from, along).find();
+  if (vertex_[vertex[0]] == State::is || vertex_[vertex[1]] == State::is) return;
+  const EdgeOfGrain edge = edge_of(grain, near, i);
+  if (is_off_a_line(grain.shape, edge.from, edge.to)) return;
+  settle_edge(grain, near, i, edge, minimum_of(grain.shape, edge));
+}
+
+ShapeSearch::EdgeOfGrain ShapeSearch::edge_of(const PlacedGrain &grain, const NearFeatures &near,
+                                              std::uint32_t i) const
+{
+  const int *ends = view_.edges + 2 * near.edges[i].edge;
+  return {grain.own_point(view_.vertices[ends[0]]), grain.own_point(view_.vertices[ends[1]])};
+}
+
+ShapeSearch::EdgeMinimum ShapeSearch::minimum_of(const Superellipsoid &s, const EdgeOfGrain &edge)
+{
+  EdgeMinimum m;
+  m.length = norm(edge.to - edge.from);
+  m.along = (1 / m.length) * (edge.to - edge.from);
+  m.line = TangentAboutLine(s, edge.from, m.along).find();
+  m.at = dot(m.line.foot - edge.from, m.along);
+  m.is_here = m.at > 0 && m.at < m.length;
+  return m;
+}
+
+// Says by the minimum over its line whether an edge is a contact.
+void ShapeSearch::settle_edge(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i,
+                              const EdgeOfGrain &of, const EdgeMinimum &on)
+{
+  const Superellipsoid &s = grain.shape;
+  const TangentMinimum &line = on.line;
+  const auto &[from, to] = of;
+  edge_[i] = State::cannot_be;
   if (!(line.distance < 0)) return;
-  const bool is_deep = !line.is_highest || !(-line.distance < s.rho);
-  const Real at = dot(line.foot - from, along);
-  const bool is_here = at > 0 && at < length;
+  const bool is_deep = !line.is_highest || !(-line.distance < s.rho), is_here = on.is_here;
   if (!line.is_highest || (is_deep && !(is_here && is_contact(s, line)))) {
     if (is_in_reach(grain, segment_distance(from, to, {0, 0, 0}))) edge_[i] = State::is_deep;
     return;
   }
-  lines_.push_back({from, along, line.foot});
+  lines_.push_back({from, on.along, line.foot});
   if (!is_here) return;
   const Minimum m = {
       {line.distance, line.normal, line.normal, line.foot, TrianglePart::edge, 0, true, true},
-      feature_code(FeatureKind::edge, edge.edge),
+      feature_code(FeatureKind::edge, near.edges[i].edge),
       kNoPrimitive};
   if (!rises_around(grain, m)) {
     passed_deep_ |= is_deep;
@@ -731,14 +783,17 @@ bool ShapeSearch::is_beside(const PlacedGrain &grain, std::uint32_t primitive) c
 // May the grain cut a face, of whose plane it has the point `section` in it? What it cuts of the plane is convex, so that without a
 // side that it cuts the face has all of it or none. All that is in reach is in every list, so that contacts are found in the same way,
 // and to the same bits, whatever else a list has.
-bool ShapeSearch::is_cut(const PlacedGrain &grain, std::uint32_t primitive,
-                         const Vec3 &section) const
+bool ShapeSearch::is_cut(const PlacedGrain &grain, std::uint32_t primitive, const Vec3 &section,
+                         const NearFeatures::RimFace *rim) const
 {
   const TreePrimitive &p = view_.primitives[primitive];
   const Inwards in = inwards_of(primitive, section);
   bool may = (in[0] >= 0) & (in[1] >= 0) & (in[2] >= 0);
+  const auto is_listed = [&](int k) { return rim && rim->edge[k] < cut_.size(); };
+  for (int k = 0; k < 3; k++) may |= is_listed(k) && cut_[rim->edge[k]];
   for (int k = 0; k < 3 && !may; k++)
-    may = may_cut(grain.shape, corner_of(grain, p, k), corner_of(grain, p, k == 2 ? 0 : k + 1));
+    if (!is_listed(k))
+      may = may_cut(grain.shape, corner_of(grain, p, k), corner_of(grain, p, k == 2 ? 0 : k + 1));
   FeatureCode nearest = kNoFeature;
   return may && is_in_reach(grain, view_.exact(primitive, grain.centre, nearest));
 }

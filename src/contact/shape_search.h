@@ -93,6 +93,16 @@ class ShapeSearch {
     const NearFeatures::Plane *plane;
     const NearFeatures::RimFace *rim;    // null: it is none
   };
+  struct EdgeOfGrain {
+    Vec3 from, to;    // in its frame
+  };
+  // Of the line of an edge.
+  struct EdgeMinimum {
+    TangentMinimum line;
+    Vec3 along;
+    Real length, at;    // where its foot is, from the begin of the edge
+    bool is_here;
+  };
   struct Line {
     Vec3 from, along, foot;    // of its minimum
   };
@@ -110,7 +120,12 @@ class ShapeSearch {
                         const Inwards &in, Real same);
   bool may_be_at(const NearFeatures::RimFace &face) const;
   void add_face(const PlacedGrain &grain, std::uint32_t face, Real side, const Vec3 &arm);
+  void look_at_likely_edges(const PlacedGrain &grain, const NearFeatures &near, Real unsure);
   void look_at_edge(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i);
+  EdgeOfGrain edge_of(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i) const;
+  static EdgeMinimum minimum_of(const Superellipsoid &s, const EdgeOfGrain &edge);
+  void settle_edge(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i,
+                   const EdgeOfGrain &of, const EdgeMinimum &on);
   void look_at_vertex(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i);
   bool is_off_a_line(const Superellipsoid &s, const Vec3 &from, const Vec3 &to) const;
   bool deep_are_passed(const PlacedGrain &grain, const NearFeatures &near, bool has_deep);
@@ -127,7 +142,8 @@ class ShapeSearch {
   void visit(const PlacedGrain &grain, Real radius, const Found &found);
   Vec3 corner_of(const PlacedGrain &grain, const TreePrimitive &p, int k) const;
   bool is_beside(const PlacedGrain &grain, std::uint32_t primitive) const;
-  bool is_cut(const PlacedGrain &grain, std::uint32_t primitive, const Vec3 &section) const;
+  bool is_cut(const PlacedGrain &grain, std::uint32_t primitive, const Vec3 &section,
+              const NearFeatures::RimFace *rim) const;
   ShapeMinimum minimum_of(const PlacedGrain &grain, std::uint32_t primitive, Real below) const;
   ShapeMinimum contact_minimum(const PlacedGrain &grain, std::uint32_t primitive,
                                bool is_owned) const;
@@ -153,6 +169,7 @@ class ShapeSearch {
   NearFeatures near_;
   std::vector<std::uint32_t> faces_, numbers_, whole_;    // of a list that is made
   std::vector<State> edge_, vertex_;
+  std::vector<char> cut_;    // of edges: the grain may cut it
   std::vector<DeepFace> deep_;
   // Has an edge been passed where the overlap is not less than the least radius of curvature?
   bool passed_deep_ = false;

@@ -35,7 +35,7 @@ if not shutil.which("valgrind"):
     kept_numbers.skip("no valgrind")
 found = {f"{style}, near list {which}": count(os.environ["LSDCD_COUNT_STEPS"], style, which)
          for style in ("hooke", "hertz/history") for which in ("kept", "anew")}
-for i, kind in enumerate(("ellipsoid 2:1:1", "n = 4", "n = 8"), start=1):
+for i, kind in enumerate(("sphere", "ellipsoid 2:1:1", "n = 4", "n = 8")):
     for k, place in enumerate(("at faces", "at edges", "in folds")):
         found[f"{kind}, {place}"] = count(os.environ["LSDCD_COUNT_SHAPES"], str(i), str(k))
 sys.exit(kept_numbers.compare(pathlib.Path(__file__).with_name("step_instructions.csv"),
