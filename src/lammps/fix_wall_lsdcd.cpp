@@ -31,6 +31,10 @@
 #include "update.h"
 #include "variable.h"
 
+#if __has_include("respa.h")
+#include "respa.h"
+#endif
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -38,6 +42,7 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
+#if !__has_include("respa.h")
 // LAMMPS does not install respa.h. These two functions have had this name since
 // 2005 and no data of the class is touched. It may go when the oldest host that is
 // built against (29Sep2021) installs respa.h with its other headers.
@@ -48,6 +53,7 @@ class Respa {
   void copy_flevel_f(int);
 };
 }    // namespace LAMMPS_NS
+#endif
 
 // The first stable LAMMPS with fix heat/flow and what it integrates.
 #define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
