@@ -167,6 +167,18 @@ def draw_hard_curves(rows):
     write_image(figure, "hard_curves.png", dpi=90)
 
 
+def draw_long_grain(rows):
+    """A grain of 5:1:1 where one of its contacts ends at a fold, by our rule and by one that jumps."""
+    figure, axis = plt.subplots(figsize=(8, 5), layout="constrained")
+    for rule, colour, at, away in (("by impulses", "#D55E00", (-0.3, 1.54), (-95, 30)), ("LSDCD", "#0072B2", (-0.1, 1.37), (10, -14))):
+        x, force = zip(*((-float(r["x"]), float(r["value"])) for r in rows if (r["curve"], r["wall"]) == ("grain", rule)))
+        axis.plot(x, force, color=colour, linewidth=2.5)
+        axis.annotate(rule, at, away, textcoords="offset points", color=colour, fontsize=FONT, weight="bold")
+    axis.set(xlabel="way past the end of a contact, in rho", ylabel="force / force of one face", title="An ellipsoid of 5:1:1 upright in a fold")
+    legible(axis)
+    write_image(figure, "long_grain.png", dpi=90)
+
+
 # ---- notes/paper.md ------------------------------------------------------------------------------
 
 def of_study(rows, name):
@@ -237,3 +249,4 @@ def draw_all():
     draw_question(rows_of("accuracy_cuda.csv"), step)
     draw_accuracy(both("tradeoff_vessel"))
     draw_hard_curves(rows_of("hard_curves_cpu.csv"))
+    draw_long_grain(rows_of("hard_curves_cpu.csv"))

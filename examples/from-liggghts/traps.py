@@ -15,7 +15,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from convert import read_stl                   # noqa: E402
+from converter.geometry import read_stl        # noqa: E402
 from make_meshes import write_text             # noqa: E402
 from runs import environment, options, print_table    # noqa: E402
 from stl import quad                           # noqa: E402

@@ -117,4 +117,4 @@ def test_comparisons():
             curves = kept.read(folder, "hard_curves")
             # Of a face that leans by 2.5 degrees the force along z is 1 - cos = 1e-3 less.
             fact("hard-curves: over the fold the force is that of a face, to 1e-3",
-                 [abs(float(r["value"]) - 1) < 1e-3 for r in curves if r["wall"] == "LSDCD"] == 5 * [True], str(curves))
+                 [abs(float(r["value"]) - 1) < 1e-3 for r in curves if (r["curve"], r["wall"]) == ("fold", "LSDCD")] == 5 * [True], str(curves))
