@@ -46,15 +46,12 @@ void PairGranularLsdcdKokkos<DeviceType>::init_style()
   atomKK->sync(Host, RADIUS_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK);
   full = lmp->kokkos->neighflag == FULL;
   PairGranularLsdcd::init_style();
-  if (books)
-    fatal("compute lsdcd/energy books what the plain pair style does: write 'suffix off' before "
-          "pair_style granular/lsdcd, or leave out the compute");
   if (has_heat && !lsdcd::kOnCpu<DeviceType>)
     fatal("the sub-model heat does not work for atoms on a GPU, where LAMMPS keeps no temperature: "
           "write 'suffix off' before "
           "pair_style granular/lsdcd, or use granular/lsdcd/kk/host");
   if (springs) static_cast<FixSpringsLsdcdKokkos<DeviceType> *>(springs)->engine = engine.get();
-  engine->set_laws({numbers, law_of, n_types + 1, kept_width()});
+  engine->set_laws({numbers, law_of, n_types + 1, kept_width(), books});
 }
 
 template <class DeviceType>
@@ -139,6 +136,11 @@ void PairGranularLsdcdKokkos<DeviceType>::compute(int eflag, int vflag)
                                                                           force->newton_pair);
   double sums[lsdcd::kPairSums];
   engine->run(now, evflag ? sums : nullptr);
+  if (books) {
+    lsdcd::EnergyRows rows;
+    engine->book(rows);
+    add_booked(rows, !now.update, now.dt);
+  }
   atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
   if (evflag) tally(sums);
 }

@@ -66,8 +66,9 @@ constexpr int kPairSums = 7;
 struct PairLaws {
   std::vector<ContactLaw> laws;
   std::vector<int> law_of;
-  int n_types = 0;    // one more than there are
-  int width = 0;      // numbers that a pair keeps
+  int n_types = 0;       // one more than there are
+  int width = 0;         // numbers that a pair keeps
+  bool books = false;    // the last of them are KeptForces, and energy is booked
 };
 
 class PairEngine {
@@ -79,6 +80,8 @@ class PairEngine {
   // Adds forces and torques. With `sums` (kPairSums of them, on the CPU) these become those of grains that n_own or, with
   // both_sides, n_all counts.
   virtual void run(const PairInput &step, Real *sums) = 0;
+  // Books the energy of the step that has run, where laws have `books`: adds to rows on the CPU what PairJob::energy has.
+  virtual void book(EnergyRows &rows) = 0;
   // Copies to the CPU what each of the first n grains has of the last sums: column k is [k * n, (k + 1) * n).
   virtual void sums_of_grains(int n, std::vector<Real> &to) = 0;
 

@@ -7,6 +7,7 @@
 
 #include "backend/backend.h"
 #include "base/countable.h"
+#include "engine/results/energy_sums.h"
 #include "pair/partner_kernels.h"
 
 #include <algorithm>
@@ -38,6 +39,9 @@ class PairEngineOn : public PairEngine {
     std::vector<std::uint32_t> flips;
     kinds_.clear();
     beyond_ = false;
+    books_.clear();
+    std::vector<LawBytes> booked;
+    std::vector<int> booked_kinds;
     for (const ContactLaw &law : given.laws) {
       laws_.push_back(pair_law_on<B>(law));
       const auto same = [&](const PairLawOn<B> &other) { return other.run == laws_.back().run; };
@@ -46,7 +50,17 @@ class PairEngineOn : public PairEngine {
       if (kind == kinds_.end()) kinds_.push_back(laws_.back());
       bytes.push_back(laws_.back().law);
       pull_off.push_back(law.pull_off());
-      flips.push_back(law.flips());
+      flips.push_back(law.flips() |
+                      (given.books ? KeptForces::flips() << (given.width - kKeptForces) : 0));
+      if (given.books) {
+        const PairBookOn<B> book = pair_book_on<B>(law);
+        const auto of = std::find_if(books_.begin(), books_.end(), [&](const PairBookOn<B> &other) {
+          return other.run == book.run;
+        });
+        booked_kinds.push_back(static_cast<int>(of - books_.begin()));
+        booked.push_back(book.law);
+        if (of == books_.end()) books_.push_back(book);
+      }
       beyond_ = beyond_ || law.pull_off() > 0;
     }
     bytes_ = from_cpu_array(bytes);
@@ -54,6 +68,8 @@ class PairEngineOn : public PairEngine {
     pull_off_ = from_cpu_array(pull_off);
     flips_ = from_cpu_array(flips);
     law_of_ = from_cpu_array(given.law_of);
+    booked_bytes_ = from_cpu_array(booked);
+    booked_kind_of_ = from_cpu_array(booked_kinds);
   }
 
   void run(const PairInput &step, Real *sums) override
@@ -99,6 +115,28 @@ class PairEngineOn : public PairEngine {
       add(s, next);
     }
     if (sums) add_up(step.both_sides ? step.n_all : step.n_own, sums);
+    if (!books_.empty()) last_step_ = s;
+  }
+
+  void book(EnergyRows &rows) override
+  {
+    PairStepView s = last_step_;
+    const std::size_t n = static_cast<std::size_t>(s.list.rows);
+    if (books_.empty() || n == 0) return;
+    s.laws = booked_bytes_.data();
+    s.kind_of = booked_kind_of_.data();
+    energy_.reserve(n);
+    is_booked_.reserve(n);
+    EnergyRows *const energy = energy_.data();
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { energy[k] = EnergyRows(); });
+    put_all(b_, is_booked_.data(), n, 0);
+    for (std::size_t kind = 0; kind < books_.size(); kind++) {
+      s.kind = static_cast<int>(kind);
+      books_[kind].run(s, energy, is_booked_.data(), b_);
+    }
+    EnergyRows sum;
+    energy_sums_.sum(b_, {n, energy, is_booked_.data(), nullptr}, 1, &sum);
+    for (int row = 0; row < kEnergyRows; row++) rows.of[row] += sum.of[row];
   }
 
   void sums_of_grains(int n, std::vector<Real> &to) override
@@ -240,7 +278,7 @@ class PairEngineOn : public PairEngine {
   {
     return pool_[0].bytes() + pool_[1].bytes() + name_.size() * sizeof(Partners::Name) +
            (first_.size() + count_.size() + offsets_.size()) * sizeof(int) +
-           sums_.size() * sizeof(Real);
+           sums_.size() * sizeof(Real) + energy_.size() * sizeof(EnergyRows) + is_booked_.size();
   }
 
  private:
@@ -366,6 +404,15 @@ class PairEngineOn : public PairEngine {
   std::size_t places_ = 0;    // for pairs in the last step
   Array<Real> sums_, more_;
   std::size_t sums_n_ = 0;
+
+  // Of books of energy: the laws of each kind, all laws, the last step, what the pairs of each of its rows do.
+  std::vector<PairBookOn<B>> books_;
+  Array<LawBytes> booked_bytes_;
+  Array<int> booked_kind_of_;
+  PairStepView last_step_;
+  Array<EnergyRows> energy_;
+  Array<char> is_booked_;
+  EnergySums<B> energy_sums_;
 
   Array<int> first_, count_, offsets_;    // of partners
   Array<Partners::Name> name_;            // their numbers are in the pool that the next step writes

@@ -274,6 +274,16 @@ PairLawOn<B> compiled_pair(const Law &law)
   return {LawBytes(law), run_pair_law<Law, B>};
 }
 
+// The law that books energy, compiled for a backend.
+template <class B>
+struct PairBookOn {
+  LawBytes law;
+  // Adds what the pairs of a row whose laws are of the kind do to rows[row], and marks the row.
+  void (*run)(const PairStepView &, EnergyRows *rows, char *is_booked, B &);
+};
+template <class B>
+PairBookOn<B> pair_book_on(const ContactLaw &law);
+
 // The groups of laws that are compiled together, a source file each and for each backend (laws/CMakeLists.txt).
 template <class B>
 PairLawOn<B> granular_pair_on(const ContactLaw &law);

@@ -13,6 +13,7 @@ import pytest
 
 import lmp
 from facts import at_most, fact
+from test_pair_energy import CLOUD, CLOUD_HEAD, CLOUD_LAWS, books, same
 from test_pair_granular import COLUMNS, DT, FULL, GRANULAR, SIDE, dump, grains, ours, script, settings
 
 pytestmark = lmp.needs_host
@@ -190,3 +191,24 @@ def test_names(folder):
         at_most(style, lmp.largest_difference(plain, own), 1e-10)
     done = lmp.run(script(ours("* * " + GRANULAR, style="granular/lsdcd/kk")), folder, host=True, flags=PLAIN)
     fact("without -k on: an error that says so", done.returncode and "start it with -k on" in done.stdout, done.stdout[-400:])
+
+
+@pytest.mark.parametrize("law", (CLOUD_LAWS[1], CLOUD_LAWS[3], CLOUD_LAWS[7]))
+def test_books(folder, law):
+    """compute lsdcd/energy has the numbers of the plain pair style, with half and full lists, on 1 and 2 processes, and after a restart of
+    each form in the middle."""
+    def told(neigh, newton="off", ranks=1, text=CLOUD_HEAD + CLOUD.format(law=law, dt=4e-5, run="run 300\nwrite_restart half.restart\nrun 300")):
+        words = f"package kokkos neigh {neigh} newton {newton}\n" if neigh else ""
+        said = lmp.run_well(words + text.replace("newton          off", f"newton          {newton}"), folder, ranks, host=True, flags=lmp.FLAGS if neigh else PLAIN)
+        fact(f"{neigh or 'plain'}: the pair style", ("granular/lsdcd/kk" in said or "granular/kk" in said) == bool(neigh), "")
+        return books(said)[-1]
+
+    plain = told("")
+    fact("there is something to compare", plain["slider"] > 0 and plain["held"] > 0, plain)
+    again = "newton          off\nread_restart half.restart\ncomm_modify vel yes\n" + CLOUD[CLOUD.index("pair_style"):].format(law=law, dt=4e-5, run="run 300")
+    for neigh, newton, ranks in (("half", "off", 1), ("half", "on", 2), ("full", "off", 1), ("full", "off", 2)):
+        same(f"{neigh} lists, newton {newton}, {ranks} ranks", told(neigh, newton, ranks), plain, 1e-9)
+        same(f"restarted from {neigh} lists", told("", text=again), plain, 1e-9)
+    told("")
+    for neigh in LISTS:
+        same(f"restarted with {neigh} lists", told(neigh, text=again), plain, 1e-9)

@@ -251,27 +251,8 @@ class ResultsOn : public StepResults {
     const std::size_t n_meshes = slots_ ? slots_->n_meshes() : 1;
     energy_of_mesh_.assign(n_meshes, EnergyRows());
     if (n_ == 0) return;
-    energy_ranges_.reserve(n_meshes);
-    energy_sums_.reserve(n_meshes);
-    energy_ranges_on_cpu_.reserve(n_meshes);
-    energy_sums_on_cpu_.reserve(n_meshes);
-    EnergyRange *range = energy_ranges_.data();
-    EnergyUnits *sum = energy_sums_.data();
-    const BookedSlots in = {n_, energy_.data(), is_booked_.data(),
-                            slots_ ? slots_->mesh() : nullptr};
-    const std::size_t n_blocks = (n_ + kTotalsBlock - 1) / kTotalsBlock;
-    b.for_each(n_meshes, [=] LSDCD_LAMBDA(std::size_t m) {
-      range[m] = EnergyRange();
-      sum[m] = EnergyUnits();
-    });
-    b.for_each(n_blocks, SeeEnergy{in, range});
-    b.for_each(n_blocks, SumEnergy{in, range, sum});
-    b.copy_out(range, energy_ranges_on_cpu_.data(), n_meshes);
-    b.copy_out(sum, energy_sums_on_cpu_.data(), n_meshes);
-    b.wait();
-    for (std::size_t m = 0; m < n_meshes; m++)
-      energy_of_mesh_[m] =
-          energy_of(energy_sums_on_cpu_.data()[m], energy_ranges_on_cpu_.data()[m]);
+    energy_sums_.sum(b, {n_, energy_.data(), is_booked_.data(), slots_ ? slots_->mesh() : nullptr},
+                     n_meshes, energy_of_mesh_.data());
   }
 
   void sum_totals(B &b)
@@ -337,10 +318,7 @@ class ResultsOn : public StepResults {
   Array<EnergyRows> energy_;    // of each slot, where the law books energy
   Array<char> is_booked_;
   std::vector<EnergyRows> energy_of_mesh_;
-  Array<EnergyRange> energy_ranges_;    // of each mesh
-  Array<EnergyUnits> energy_sums_;
-  typename B::template CpuArray<EnergyRange> energy_ranges_on_cpu_;
-  typename B::template CpuArray<EnergyUnits> energy_sums_on_cpu_;
+  EnergySums<B> energy_sums_;
   Array<int> n_contacts_, first_contact_, stored_candidates_;
 
   WallTotals totals_;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "backend/atomic.h"
+#include "backend/backend.h"
 #include "engine/results/result_columns.h"
 #include "engine/results/step_results.h"
 #include "engine/results/sum_unit.h"
@@ -104,5 +105,38 @@ inline EnergyRows energy_of(const EnergyUnits &sums, const EnergyRange &range)
   for (int row = 0; row < kEnergyRows; row++) rows.of[row] = range.unit(row).value(sums.of[row]);
   return rows;
 }
+
+// Sums the booked slots of each mesh to the CPU.
+template <class B>
+class EnergySums {
+ public:
+  void sum(B &b, const BookedSlots &in, std::size_t n_meshes, EnergyRows *of_mesh)
+  {
+    ranges_.reserve(n_meshes);
+    sums_.reserve(n_meshes);
+    ranges_on_cpu_.reserve(n_meshes);
+    sums_on_cpu_.reserve(n_meshes);
+    EnergyRange *range = ranges_.data();
+    EnergyUnits *sum = sums_.data();
+    const std::size_t n_blocks = (in.n + kTotalsBlock - 1) / kTotalsBlock;
+    b.for_each(n_meshes, [=] LSDCD_LAMBDA(std::size_t m) {
+      range[m] = EnergyRange();
+      sum[m] = EnergyUnits();
+    });
+    b.for_each(n_blocks, SeeEnergy{in, range});
+    b.for_each(n_blocks, SumEnergy{in, range, sum});
+    b.copy_out(range, ranges_on_cpu_.data(), n_meshes);
+    b.copy_out(sum, sums_on_cpu_.data(), n_meshes);
+    b.wait();
+    for (std::size_t m = 0; m < n_meshes; m++)
+      of_mesh[m] = energy_of(sums_on_cpu_.data()[m], ranges_on_cpu_.data()[m]);
+  }
+
+ private:
+  typename B::template Array<EnergyRange> ranges_;
+  typename B::template Array<EnergyUnits> sums_;
+  typename B::template CpuArray<EnergyRange> ranges_on_cpu_;
+  typename B::template CpuArray<EnergyUnits> sums_on_cpu_;
+};
 
 }    // namespace lsdcd

@@ -1,0 +1,7 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "backend/backend_cpu.h"
+#include "pair/book_on.h"
+
+template lsdcd::PairBookOn<lsdcd::CpuBackend> lsdcd::pair_book_on(const ContactLaw &);
