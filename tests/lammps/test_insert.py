@@ -152,6 +152,15 @@ def test_wall(folder):
     fact("wall none leaves it out of sight", rows[-1][3] > 0, str(rows[-1]))
 
 
+def test_image_of_a_wall(folder):
+    """A plate below the upper end of a periodic box keeps grains off its image, 0.05 below the lower end."""
+    stl.write(folder / "plate.stl", stl.square(1.9, 1.95))
+    text = VESSEL.replace("f f f", "p p p").replace("-1.2 1.2 units", "-2 -1.8 units")
+    out = lmp.run_well(text + f"fix wall all wall/lsdcd {WALL} mesh plate.stl\n" + FILL + "\n" + DUMP.format(20) + "run 20\n", folder)
+    gaps = [g[4] + 2.05 - g[0] for g in last(lmp.read_dump(folder / "grains")).values()]
+    fact("grains are clear of the image of a wall", len(gaps) > 5 and -1e-9 < min(gaps) < 0.03, f"{len(gaps)} {min(gaps)} {out[-300:]}")
+
+
 def check_brought(folder):
     """The cube again, which comes from afar and goes on while there are grains: by atoms that are its nodes, and as a heavy body."""
     corners = "".join(f"create_atoms 2 single {x} {y} {z} units box\n" for x in (-7, -5) for y in (-1, 1) for z in (-1, 1))

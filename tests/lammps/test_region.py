@@ -102,7 +102,8 @@ def test_block(folder):
         ("gap", "box.stl gap 0.2", "block -1.05 0.8 -0.55 1.3 -0.8 0.3 units box"),
     ], CLOUD + MOVES)
     scaled = "lattice sc 0.125\nregion half block -0.625 0.5 -0.375 0.75 -0.5 0.25 units lattice\n"
-    expect_equal(folder, [("units lattice", "box.stl scale 0.5 units lattice", "intersect 2 half half")],
+    expect_equal(folder, [("units lattice", "box.stl scale 0.5 units lattice", "intersect 2 half half"),
+                          ("gap in units lattice", "box.stl scale 0.5 gap 0.1 units lattice", "block -1.05 0.8 -0.55 1.3 -0.8 0.3 units box")],
                  CLOUD + scaled)
 
 
