@@ -335,32 +335,6 @@ TEST(library, sides_of_a_closed_mesh_are_never_estimated)
   }
 }
 
-TEST(library, arrays_of_any_layout_have_the_same_answers)
-{
-  const lsdcd::Grid grid = grid_of(box_and_cylinder());
-  const std::size_t n = 500;
-  const std::vector<double> points = random_points<double>(n);
-  const All<double> packed(grid, points);
-  // Components apart, and answers in every second place, from the last to the first.
-  std::vector<double> apart(3 * n), distance(2 * n, -1), normal(3 * n);
-  for (std::size_t i = 0; i < n; i++)
-    for (int k = 0; k < 3; k++) apart[k * n + i] = points[3 * i + k];
-  lsdcd::Query<double> q(apart.data(), n);
-  q.points_row = 1;
-  q.points_column = n;
-  q.distance = distance.data() + 2 * (n - 1);
-  q.distance_step = -2;
-  q.normal = normal.data();
-  q.normal_row = 1;
-  q.normal_column = n;
-  grid.query(q);
-  for (std::size_t i = 0; i < n; i++) {
-    EXPECT_EQ(distance[2 * (n - 1 - i)], packed.distance[i]);
-    EXPECT_EQ(distance[2 * (n - 1 - i) + 1], -1);
-    for (int k = 0; k < 3; k++) EXPECT_EQ(normal[k * n + i], packed.normal[3 * i + k]);
-  }
-}
-
 // A query of doubles takes no array of floats, nor the other way round.
 template <class T, class U, class = void>
 struct TakesArrays : std::false_type {
@@ -376,20 +350,6 @@ TEST(library, a_query_in_cpp_takes_arrays_of_its_type_only)
   EXPECT_TRUE((TakesArrays<double, double>::value && TakesArrays<float, float>::value));
   EXPECT_FALSE((TakesArrays<double, float>::value || TakesArrays<float, double>::value));
   EXPECT_FALSE((TakesArrays<double, void>::value || TakesArrays<float, void>::value));
-}
-
-TEST(library, radii_bound_what_is_found)
-{
-  const lsdcd::Grid grid = grid_of(lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}));
-  const std::vector<double> points = {1.2, 0, 0, 1.2, 0, 0}, radii = {0.19, 0.21};
-  std::vector<std::uint8_t> status(2);
-  lsdcd::Query<double> q(points.data(), 2);
-  q.radii = radii.data();
-  q.status = status.data();
-  grid.query(q);
-  EXPECT_EQ(status[0], LSDCD_CERTIFIED);
-  EXPECT_EQ(status[1], LSDCD_CERTIFIED | LSDCD_FOUND);
-  EXPECT_EQ(All<double>(grid, points, false, 0.19).status[0], LSDCD_CERTIFIED);
 }
 
 // A box whose triangles come in any order; points on a lattice are as near to two, three or more of them.
@@ -510,20 +470,6 @@ TEST(library, a_mesh_of_vertices_and_faces_is_that_of_its_corners)
     EXPECT_EQ(m.faces, a.faces);
     EXPECT_EQ(m.edges, a.edges);
   }
-}
-
-TEST(library, faces_of_the_welded_mesh_have_the_corners_of_their_triangles)
-{
-  TriangleSoup soup = box_and_cylinder();
-  soup.corners.insert(soup.corners.begin(), 3, {0, 0, 0.75});    // no area, so no face
-  const lsdcd::Mesh mesh(numbers(soup));
-  const lsdcd::MeshArrays m = mesh.arrays();
-  ASSERT_EQ(m.triangle.size() + 1, soup.n_triangles());
-  for (std::size_t f = 0; f < m.triangle.size(); f++)
-    for (int k = 0; k < 3; k++) {
-      const Vec3 corner = soup.corners[3 * m.triangle[f] + k];
-      EXPECT_EQ(norm(point(m.vertices, m.faces[3 * f + k]) - corner), 0) << f;
-    }
 }
 
 // Each corner of the cube is there three times, a little apart, for a face each; the last vertex has no face.
@@ -899,22 +845,6 @@ TEST(contacts, have_weights_that_share_the_overlap)
     EXPECT_NEAR(a.overlap[k], own, 1e-15);
     EXPECT_NEAR(a.weight[k], (1 - kCosine * other / own) / (1 - kCosine * kCosine), 2e-6) << k;
   }
-}
-
-TEST(contacts, in_a_cubes_corner_are_its_three_faces_with_all_their_weight)
-{
-  const lsdcd::Grid grid(lsdcd::Mesh(cube_vertices<double>(), kCubeFaces), kCutoff);
-  // In the corner; over a vertex, an edge and a face from outside; far; no number.
-  const std::vector<double> points = {0.7, 0.8, 0.9, 1.1, 1.1, 1.1, 1.1, 1.1, 0.3,
-                                      1.1, 0.5, 0.3, 5,   5,   5,   NAN, 1,   1};
-  const lsdcd::Contacts<double> a = grid.contacts(points, std::vector<double>{kCutoff});
-  EXPECT_EQ(a.first, (std::vector<std::size_t>{0, 3, 4, 5, 6, 6, 6}));
-  std::vector<double> distance(a.distance.begin(), a.distance.begin() + 3);
-  std::sort(distance.begin(), distance.end());
-  for (int k = 0; k < 3; k++) EXPECT_NEAR(distance[k], 0.1 * (k + 1), 1e-15);
-  for (const double w : a.weight) EXPECT_EQ(w, 1);
-  const std::uint32_t kinds[] = {0, 0, 0, 2, 1, 0};
-  for (int k = 0; k < 6; k++) EXPECT_EQ(LSDCD_FEATURE_KIND(a.feature[k]), kinds[k]) << k;
 }
 
 TEST(contacts, of_more_than_few_places_are_all_there)

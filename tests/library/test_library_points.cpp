@@ -184,27 +184,6 @@ TEST(barycentric, times_the_corners_is_the_closest_point_and_on_a_face_the_foot_
   EXPECT_GT(thin, 100);
 }
 
-TEST(barycentric, is_0_for_corners_that_the_closest_edge_or_vertex_does_not_have)
-{
-  const TriangleSoup soup = box_and_cylinder();
-  const std::vector<double> points = random_points<double>(4000);
-  const Shares<double> s(lsdcd::Grid(lsdcd::Mesh(numbers(soup))), points);
-  std::array<int, 3> seen = {};
-  for (std::size_t i = 0; i < s.triangle.size(); i++) {
-    const unsigned kind = LSDCD_FEATURE_KIND(s.feature[i]);
-    std::array<double, 3> share;
-    std::copy_n(&s.barycentric[3 * i], 3, share.begin());
-    seen[kind]++;
-    if (kind == 1) {
-      EXPECT_EQ(std::count(share.begin(), share.end(), 0), 1) << i;
-    } else if (kind == 2) {
-      EXPECT_EQ(std::count(share.begin(), share.end(), 0), 2) << i;
-      EXPECT_EQ(std::count(share.begin(), share.end(), 1), 1) << i;
-    }
-  }
-  for (const int n : seen) EXPECT_GT(n, 50);
-}
-
 // Cells in double find places to 1e-8 here, in float to 3e-6 (0.4 + 14 cells), as test_library has it; floats of
 // coordinates below 2 are rounded by 1.2e-7, three of them and three shares.
 template <class T>
@@ -226,23 +205,6 @@ TEST(barycentric, of_cells_is_right_to_their_precision)
 {
   expect_shares_by_cells<double>();
   expect_shares_by_cells<float>();
-}
-
-TEST(barycentric, is_no_number_where_there_is_no_triangle)
-{
-  TriangleSoup soup = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
-  soup.corners.insert(soup.corners.end(), {{5, 0, 0}, {6, 0, 0}, {7, 0, 0}});    // a line
-  const lsdcd::Mesh mesh(numbers(soup));
-  for (const double cutoff : {0., 1.}) {
-    // Near the line; far from all with a cutoff; no point.
-    const std::vector<double> points = {5.5, 0.1, 0, 0, 0, 9, NAN, 0, 0};
-    const Shares<double> s(lsdcd::Grid(mesh, cutoff), points);
-    for (int i = 0; i < 3; i++) {
-      if (cutoff == 0 && i == 1) continue;
-      EXPECT_EQ(s.triangle[i], LSDCD_NONE) << i;
-      for (int k = 0; k < 3; k++) EXPECT_TRUE(std::isnan(s.barycentric[3 * i + k])) << i;
-    }
-  }
 }
 
 // ---- signed distances ---------------------------------------------------------------------------
@@ -296,27 +258,6 @@ TEST(signed_distance, in_float_has_the_side_of_a_plate_that_is_thinner_than_its_
   options.precision = LSDCD_FLOAT;
   const lsdcd::Grid grid(lsdcd::Mesh(numbers(lsdcd::box_mesh({0, 0, 0}, {1, 2, 1e-7}))), options);
   for (const double x : grid.signed_distances(random_points<double>(20000, 6))) ASSERT_GT(x, 0);
-}
-
-TEST(signed_distance, is_the_distance_with_the_sign_of_the_side)
-{
-  const lsdcd::Grid grid(lsdcd::Mesh(numbers(box_and_cylinder())));
-  const std::vector<double> points = random_points<double>(2000);
-  const std::size_t n = points.size() / 3;
-  std::vector<double> distance(n), together(2 * n, 7);
-  std::vector<std::int8_t> side(n);
-  lsdcd::Query<double> q(points.data(), n);
-  q.distance = distance.data();
-  q.side = side.data();
-  q.signed_distance = together.data() + 2 * (n - 1);
-  q.signed_distance_step = -2;
-  grid.query(q);
-  const std::vector<double> alone = grid.signed_distances(points);
-  for (std::size_t i = 0; i < n; i++) {
-    EXPECT_EQ(alone[i], side[i] * distance[i]) << i;
-    EXPECT_EQ(together[2 * (n - 1 - i)], alone[i]) << i;
-    EXPECT_EQ(together[2 * (n - 1 - i) + 1], 7) << i;
-  }
 }
 
 TEST(signed_distance, is_0_without_a_sign_on_the_mesh_and_none_of_what_is_no_number)

@@ -42,6 +42,9 @@ for real, close in ((np.float64, 1e-15), (np.float32, 1e-7)):
     assert np.allclose(met.overlap, real(0.4) - met.distance, rtol=0, atol=close)
     assert np.allclose(np.sort(met.normal[:3].sum(0)), [-1, -1, -1], rtol=0, atol=close)
     assert (met.feature >> 30).tolist() == [0, 0, 0, 2] and (met.point[3] == 1).all()
+    # From outside an edge and a face; far; no number.
+    out = grid.contacts(np.array([[1.1, 1.1, 0.3], [1.1, 0.5, 0.3], [5, 5, 5], [np.nan, 1, 1]], dtype=real), 0.4)
+    assert out.first.tolist() == [0, 1, 2, 2, 2] and (out.feature >> 30).tolist() == [1, 0] and (out.weight == 1).all()
 
 # Points of any shape and layout, and arrays of the caller.
 centres = np.array([[[0.7, 0.8, 0.9], [0, 0, 0]], [[1.1, 1.1, 1.1], [9, 9, 9]], [[0.7, 0.8, 0.9], [0.9, 0, 0]]])
@@ -114,7 +117,9 @@ assert np.allclose(far.distance, wanted[0], rtol=1e-14, atol=1e-14) and (far.sid
 assert (anywhere.query(points).distance[np.isfinite(base)] == base[np.isfinite(base)]).all()
 
 assert np.isinf(grid.query([[1.2, 0, 0]], radius=0.19).distance[0])
-assert np.isfinite(grid.query([[1.2, 0, 0]] * 2, radius=[0.19, 0.21]).distance).tolist() == [False, True]
+near = grid.query([[1.2, 0, 0]] * 2, "distance status", radius=[0.19, 0.21])
+assert np.isfinite(near.distance).tolist() == [False, True]
+assert near.status.tolist() == [lsdcd.CERTIFIED, lsdcd.CERTIFIED | lsdcd.FOUND]
 assert (lsdcd.Mesh(vertices[faces]).grid(cutoff=CUTOFF).query(points).distance == base).all()
 
 assert refused(lsdcd.Error, "cutoff", lambda: grid.query(points, radius=1)).code == "cutoff"
@@ -168,6 +173,8 @@ assert all(getattr(written, word) is mine[word] for word in mine) and sorted(var
 assert (rows[:, 3] == whole.distance).all() and (rows[:, 4:7] == whole.closest).all()
 assert (mine["triangle"].view(np.uint32) == whole.triangle).all() and (rows[:, 7] == 0).all()
 assert grid.query(points, "side distance", out={"distance": rows[:, 3]}).side.shape == (20000,)
+every_second = np.full(40000, 7.0)
+assert (grid.query(points, out={"distance": every_second[::-2]}).distance == base).all() and (every_second[::2] == 7).all()
 again = grid.query(points[::-1], out=whole)
 assert again.closest is whole.closest and (whole.closest[::-1] == rows[:, 4:7]).all()
 for out, says, kind in (({"distance": np.zeros(9)}, "shape (9,), not (20000,)", ValueError),
@@ -209,13 +216,21 @@ refused(ValueError, "radius has the shape (3,), not () or (3, 2)", lambda: grid.
 refused(TypeError, "complex128", lambda: grid.contacts(centres, 0.4j))
 
 # Signed distances and barycentrics: negative inside, and shares of the corners as given.
-answer = anywhere.query(points.reshape(100, 200, 3), "signed_distance barycentric closest triangle feature")
+answer = anywhere.query(points.reshape(100, 200, 3), "signed_distance distance side barycentric closest triangle feature")
+assert (answer.signed_distance == answer.distance * answer.side).all()    # to the bit
 distance, side = truth(points)
 assert np.allclose(answer.signed_distance.ravel(), distance * side, rtol=0, atol=16 * 2.3e-16)
 corners = vertices[faces[answer.triangle]]
 assert answer.barycentric.shape == (100, 200, 3) and (answer.barycentric >= 0).all()
 assert np.allclose((answer.barycentric[..., None] * corners).sum(-2), answer.closest, rtol=0, atol=16 * 2.3e-16)
-assert ((answer.barycentric == 0).sum(-1)[answer.feature >> 30 == 2] == 2).all()
+for kind in (1, 2):    # an edge has two corners, a vertex is one
+    shares = answer.barycentric[answer.feature >> 30 == kind]
+    assert len(shares) > 50 and ((shares == 0).sum(-1) == kind).all() and (kind == 1 or (shares.max(-1) == 1).all())
+# A line is no triangle.
+line = lsdcd.Mesh(np.vstack([vertices, [[5, 0, 0], [6, 0, 0], [7, 0, 0]]]), np.vstack([faces, [[8, 9, 10]]]))
+for of_line in (line.grid(), line.grid(cutoff=1)):
+    none = of_line.query([[5.5, 0.1, 0], [np.nan, 0, 0]], "triangle barycentric")
+    assert none.triangle.tolist() == [lsdcd.NONE] * 2 and np.isnan(none.barycentric).all()
 mine = {"signed_distance": np.zeros((20000, 2), np.float32)[:, 0], "barycentric": np.zeros((3, 20000), np.float32).T}
 anywhere.query(points.astype(np.float32), out=mine)
 assert np.allclose(mine["signed_distance"], distance * side, rtol=0, atol=16 * 1.2e-7)
