@@ -661,9 +661,10 @@ typedef struct lsdcd_wall_mesh {
   double wear_factor;     /* it wears so many times as fast; 0: once, -1: not at all */
   const char *cache;      /* file that stores its grid; null: none */
   /* Files that are written every so many steps, with a '*' for the step in each one's name; null: none. `fields`,
-   * .vtp: stress, contacts and wear of each triangle, for ParaView. `stl`: the mesh where it is. */
-  const char *fields, *stl;
-  int fields_every, stl_every;
+   * .vtp: stress, contacts and wear of each triangle, with `energy` what is dissipated there, with `impact_speed` impacts, for
+   * ParaView. `stl`: the mesh where it is. `spectrum`, .csv, with `impact_speed`: see lsdcd_wall_impacts. */
+  const char *fields, *stl, *spectrum;
+  int fields_every, stl_every, spectrum_every;
   int nodes_by_caller; /* 1: lsdcd_wall_set_nodes() moves each of its vertices, and nothing else moves it. Exact, in
                           double precision */
   double
@@ -713,6 +714,9 @@ typedef struct lsdcd_wall_spec {
   int average_every;
   int each_contact; /* 1: lsdcd_wall_get_contacts() will be called */
   int energy; /* 1: what contacts dissipate is booked, by cause; not with shapes, nodes_by_caller, coats and wear_deform_every */
+  /* Impacts that are faster are recorded, length/time, with the speed along the normal; 0: none are. Not with shapes and
+   * nodes_by_caller */
+  double impact_speed;
   int shapes; /* 1: grains may be no spheres: steps read half_axes to inertia of lsdcd_spheres. On a CPU */
 } lsdcd_wall_spec;
 /* `options` may be null: all defaults. All that the structs point to is copied or shared. LSDCD_ERROR_ARGUMENT names
@@ -816,6 +820,9 @@ typedef struct lsdcd_wall_totals {
   /* Work of spheres and mesh on their contacts, of the mesh on the spheres, what contacts hold, and the remainder: contact_work less
    * all that is held or lost. */
   double contact_work, drive_work, held, remainder;
+  /* With impact_speed: the number of impacts since the first step, and their energy, the sum of m v^2/2 with the speed along the
+   * normal, and with a body's mobility in m. */
+  double impacts, impact_energy;
 } lsdcd_wall_totals;
 /* The totals of a mesh in the last step, over all processes; -1: of all, without servos. The torque is about the point `about`, of
  * the box, 3 numbers; null: about `torque_about` of each mesh. Own. */
@@ -879,6 +886,19 @@ typedef struct lsdcd_wall_contacts {
 /* Of a wall with each_contact. Of a sphere in several they come one after the other. LSDCD_ERROR_ARGUMENT also before the
  * first step after lsdcd_wall_restore(), as saved numbers have none. Own. */
 LSDCD_API int lsdcd_wall_get_contacts(lsdcd_wall *wall, lsdcd_wall_contacts *contacts);
+/* The spectrum of the impacts on a mesh since the first step, over all processes: bins of the energy of an impact, of which each begins
+ * where the one before it ends, at 10^(k/10) units of energy with a whole k, from the first to the last one with an impact. Arrays hold `room` of
+ * them; those that are null are not asked for. Bins reach from 1e-40 to 1e40, and what is beyond is in the outermost. */
+typedef struct lsdcd_wall_impacts {
+  size_t size;           /* of this struct */
+  size_t room;           /* 0: only `bins` is asked for */
+  double *begins, *ends; /* energy of an impact */
+  double *impacts;       /* number */
+  double *energy;        /* the sum of their energies */
+  size_t bins;           /* answer: all there are; with less room no array is written */
+} lsdcd_wall_impacts;
+/* Of a wall with impact_speed. LSDCD_ERROR_ARGUMENT: of another one, or no such mesh. Own. */
+LSDCD_API int lsdcd_wall_get_impacts(lsdcd_wall *wall, int mesh, lsdcd_wall_impacts *impacts);
 /* Other motions for a mesh, from where it is; n 0: it stops there. Not of one with `posed_by_caller`. Own. */
 LSDCD_API int lsdcd_wall_set_motion(lsdcd_wall *wall, int mesh, const lsdcd_motion *motions,
                                     size_t n);

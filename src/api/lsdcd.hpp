@@ -860,8 +860,8 @@ struct WallMesh {
   bool torque_about_moves = false;
   double wear_factor = 1;
   std::string cache;
-  std::string fields, stl;    // files, .vtp and .stl
-  int fields_every = 0, stl_every = 0;
+  std::string fields, stl, spectrum;    // files, .vtp, .stl and .csv
+  int fields_every = 0, stl_every = 0, spectrum_every = 0;
   bool nodes_by_caller = false;    // Wall::set_nodes() moves each of its vertices
   double pressure = 0;             // force/area, on nodes
 };
@@ -882,6 +882,7 @@ struct WallSpec {
   int average_every = 0;        // steps
   bool each_contact = false;    // Wall::contacts() will be called
   bool energy = false;          // what contacts dissipate is booked
+  double impact_speed = 0;      // length/time; impacts that are faster are recorded
   bool shapes = false;          // grains may be no spheres
 };
 
@@ -956,7 +957,7 @@ class Spec {
     for (const WallMesh &mesh : from.meshes) meshes_.push_back(struct_of(mesh));
     auto &[size, law, meshes, n_meshes, corner, side, nearest, cell, memory, rmax, device, wear,
            wear_coefficient, hardness, wear_deform_every, wear_deform_factor, periodic_ends, brief,
-           average_every, each_contact, energy, shapes] = spec_;
+           average_every, each_contact, energy, impact_speed, shapes] = spec_;
     size = sizeof spec_;
     law = add(from.law);
     meshes = meshes_.data();
@@ -979,6 +980,7 @@ class Spec {
     average_every = from.average_every;
     each_contact = from.each_contact;
     energy = from.energy;
+    impact_speed = from.impact_speed;
     shapes = from.shapes;
   }
   Spec(const Spec &) = delete;
@@ -997,8 +999,8 @@ class Spec {
     lsdcd_wall_mesh made = {};
     auto &[size, mesh, name, placement, law, type_laws, n_type_laws, posed_by_caller, motions,
            n_motions, servo, surface_velocity, surface_angular_velocity, surface_centre,
-           temperature, torque_about, torque_about_moves, wear_factor, cache, fields, stl,
-           fields_every, stl_every, nodes_by_caller, pressure, body] = made;
+           temperature, torque_about, torque_about_moves, wear_factor, cache, fields, stl, spectrum,
+           fields_every, stl_every, spectrum_every, nodes_by_caller, pressure, body] = made;
     size = sizeof made;
     mesh = from.mesh;
     if (!from.name.empty()) name = from.name.c_str();
@@ -1026,8 +1028,10 @@ class Spec {
     if (!from.cache.empty()) cache = from.cache.c_str();
     if (!from.fields.empty()) fields = from.fields.c_str();
     if (!from.stl.empty()) stl = from.stl.c_str();
+    if (!from.spectrum.empty()) spectrum = from.spectrum.c_str();
     fields_every = from.fields_every;
     stl_every = from.stl_every;
+    spectrum_every = from.spectrum_every;
     nodes_by_caller = from.nodes_by_caller;
     pressure = from.pressure;
     return made;
@@ -1085,6 +1089,11 @@ struct WallContact {
   int mesh = 0;
   std::array<double, 3> force = {}, point = {};
   double overlap = 0;
+};
+
+// A bin of the impacts on a mesh; fields as in lsdcd_wall_impacts.
+struct ImpactBin {
+  double begins = 0, ends = 0, impacts = 0, energy = 0;
 };
 
 // All that is 0 has its default.
@@ -1208,6 +1217,23 @@ class Wall {
         all[i].point[k] = points[3 * i + k];
       }
     }
+    return all;
+  }
+  // The spectrum of the impacts on a mesh since the first step, of a wall with impact_speed.
+  std::vector<ImpactBin> impacts(int mesh)
+  {
+    lsdcd_wall_impacts ask = {};
+    ask.size = sizeof ask;
+    c::check(lsdcd_wall_get_impacts(get(), mesh, &ask));
+    const std::size_t n = ask.room = ask.bins;
+    std::vector<double> begins(n), ends(n), impacts(n), energies(n);
+    ask.begins = begins.data();
+    ask.ends = ends.data();
+    ask.impacts = impacts.data();
+    ask.energy = energies.data();
+    c::check(lsdcd_wall_get_impacts(get(), mesh, &ask));
+    std::vector<ImpactBin> all(n);
+    for (std::size_t k = 0; k < n; k++) all[k] = {begins[k], ends[k], impacts[k], energies[k]};
     return all;
   }
   // Other motions, from where the mesh is; none: it stops there.

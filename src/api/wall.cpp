@@ -154,6 +154,13 @@ int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, const double *about,
     out.drive_work = e.rows[EnergyRow::drive];
     out.held = e.rows[EnergyRow::held];
     out.remainder = e.remainder();
+    out.impacts = out.impact_energy = 0;
+    for (const MeshPart &m : wall->in->meshes()) {
+      if ((mesh >= 0 && mesh != m.index) || !(wall->in->spec().impact_speed > 0)) continue;
+      const ImpactSpectrum spectrum = wall->in->impacts(m.index);
+      out.impacts += spectrum.impacts();
+      out.impact_energy += spectrum.energy();
+    }
     if (mesh >= 0 && wall->in->meshes()[mesh].servo().present) {
       const Servo &s = wall->in->meshes()[mesh].servo();
       out.servo[0] = s.position;
@@ -190,6 +197,29 @@ int lsdcd_wall_get_contacts(lsdcd_wall *wall, lsdcd_wall_contacts *contacts)
         if (to.force) to.force[3 * i + k] = c.force[k];
         if (to.point) to.point[3 * i + k] = c.point[k];
       }
+    }
+  });
+}
+
+int lsdcd_wall_get_impacts(lsdcd_wall *wall, int mesh, lsdcd_wall_impacts *impacts)
+{
+  return guard_wall(wall, [&] {
+    const lsdcd_wall_impacts to = checked(impacts, "lsdcd_wall_impacts");
+    check_mesh(*wall, mesh, 0);
+    if (!(wall->in->spec().impact_speed > 0))
+      throw ApiError(
+          LSDCD_ERROR_ARGUMENT,
+          "this wall does not record impacts: set impact_speed in its lsdcd_wall_spec when "
+          "the wall is made");
+    tell_late(*wall);
+    const std::vector<ImpactSpectrum::Row> rows = wall->in->impacts(mesh).rows();
+    impacts->bins = rows.size();
+    if (rows.size() > to.room) return;
+    for (std::size_t k = 0; k < rows.size(); k++) {
+      if (to.begins) to.begins[k] = rows[k].begins;
+      if (to.ends) to.ends[k] = rows[k].ends;
+      if (to.impacts) to.impacts[k] = rows[k].impacts;
+      if (to.energy) to.energy[k] = rows[k].energy;
     }
   });
 }

@@ -189,6 +189,8 @@ void read_setting(const Kind &kind, Given given, const std::string &field, T &to
     if (bytes > 0) to = static_cast<std::size_t>(bytes);
   } else if constexpr (std::is_same_v<Kind, StepsSetting>) {
     to = steps_or_none(given, field, kind.none, kStepsRange);
+  } else if constexpr (std::is_same_v<Kind, SpeedSetting>) {
+    to = number_or(0, given, field, kAbove0);
   } else {
     static_assert(std::is_same_v<Kind, FactorSetting>);
     if (given != -1 && given != 0) to = checked_number(given, field, kWearFactorRange);
@@ -274,6 +276,7 @@ MeshSpec mesh_spec_of(const lsdcd_wall_mesh &given, std::size_t k, const WallSpe
 #undef LSDCD_READ
 #undef LSDCD_READ_PLAIN
   mesh.fields = file_of(given.fields, given.fields_every, field + ".fields", ".vtp");
+  mesh.spectrum = file_of(given.spectrum, given.spectrum_every, field + ".spectrum", ".csv");
   mesh.stl = file_of(given.stl, given.stl_every, field + ".stl", ".stl");
   if (given.cache) mesh.cache_file = given.cache;
   return mesh;

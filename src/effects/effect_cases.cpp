@@ -87,6 +87,12 @@ std::vector<EffectCase> effect_cases()
 
   add("books of energy", "energy, compute lsdcd/energy", "tangential spring",
       [](EngineSettings &s) { s.law().keeps_forces = true; });
+  add("energy of triangles", "energy, mesh_fields", "books of energy",
+      [](EngineSettings &s) { s.energy_places = true; });
+  add("impacts", "impacts", "tangential spring", [](EngineSettings &s) {
+    s.law().keeps_touch = true;
+    s.impact_speed = 0.01;
+  });
 
   begin("granular hooke", "granular hooke ... linear_nohistory", "hooke",
         granular(NormalModel::hooke, TangentialModel::linear_nohistory));
@@ -162,7 +168,7 @@ std::vector<EffectCase> effect_cases()
 
 bool acts_on_pairs(const EngineSettings &s)
 {
-  return !(s.surface.moves() || s.moves || s.bodies || s.contacts);
+  return !(s.surface.moves() || s.moves || s.bodies || s.contacts || s.records_energy());
 }
 
 int bytes_per_atom(const EngineSettings &settings)

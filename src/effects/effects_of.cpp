@@ -61,6 +61,8 @@ std::vector<Effect> effects_of(const EngineSettings &s)
   if (s.contacts) effects.push_back({"loads of triangles", 0});
   if (s.law().keeps_forces)
     effects.push_back({"books of energy", kKeptForces * static_cast<int>(sizeof(Real))});
+  if (s.energy_places) effects.push_back({"energy of triangles", 0});
+  if (s.impact_speed > 0) effects.push_back({"impacts", 0});
   if (s.wear == WearModel::archard) effects.push_back({"wear archard", 0});
   if (s.wear == WearModel::finnie) effects.push_back({"wear finnie", 0});
   return effects;

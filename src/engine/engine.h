@@ -29,6 +29,7 @@ enum class StepState { none, begun, submitted };
 
 class NodeEngine;      // engine/nodes/node_engine.h
 class LoadEngine;      // engine/loads/load_engine.h
+class EnergyEngine;    // engine/loads/energy_engine.h
 class TriangleTree;    // tree/triangle_tree.h
 
 // Computes wall forces for the spheres of one process: in every step begin(), choose_if_due(), submit() and
@@ -119,6 +120,8 @@ class WallEngine {
   virtual void take_nodes(WallEngine & /* from */) {}
   // Returns what adds up loads of features where it computes; null where the host reads contacts as fast.
   virtual LoadEngine *loads() { return nullptr; }
+  // Likewise what becomes of energy, where the settings record it.
+  virtual EnergyEngine *energies() { return nullptr; }
 
   // Returns what steps have counted since the last call, and counts from 0 again. Throws InputError if a step had to leave out a sphere
   // that is too large or has more contacts than there is memory for, or if one grew after the choice.

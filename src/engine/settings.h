@@ -37,11 +37,14 @@ struct EngineSettings {
   bool bodies = false;      // StepSettings::mobility will be used; contacts are kept, too
   bool nodes = false;       // WallEngine::nodes() will be used; contacts are kept, too
   WearModel wear = WearModel::none;    // where contacts are kept
+  bool energy_places = false;          // where laws book energy, EnergyRecord::dissipated is wanted
+  Real impact_speed = 0;    // impacts that are faster are recorded (length/time); 0: none are
   HostArrays arrays = HostArrays::in_place;
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
   HostNames names;        // for errors
 
+  bool records_energy() const { return energy_places || impact_speed > 0; }
   // Returns the first law of the table: the only one, or the sub-models of all.
   ContactLaw &law() { return laws.laws.front(); }
   const ContactLaw &law() const { return laws.laws.front(); }

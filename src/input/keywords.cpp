@@ -186,6 +186,8 @@ void read_setting(const Kind &kind, Tokens &w, const std::string &what, T &to)
     to = read_memory(w);
   } else if constexpr (std::is_same_v<Kind, StepsSetting>) {
     to = static_cast<T>(w.whole(what.c_str(), kStepsRange));
+  } else if constexpr (std::is_same_v<Kind, SpeedSetting>) {
+    to = w.number(what.c_str(), kAbove0);
   } else {
     static_assert(std::is_same_v<Kind, FactorSetting>);
     to = w.number(what.c_str(), kWearFactorRange);
@@ -271,9 +273,17 @@ const Keyword kKeywords[] = {
      "N steps F (1) times that is removed from the mesh",
      read_wear},
     {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",
-     "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step, and "
+     "stress, contacts, wear, energy and impacts of every triangle every N steps, for ParaView; * "
+     "is "
+     "the step, and "
      "a .pvd file lists them all",
      nullptr, [](Tokens &w, MeshSpec &s, InputNames &) { s.fields = read_file_every(w, ".vtp"); }},
+    {"impact_spectrum", "FILE every N", "", "*.csv, N >= 1", "none",
+     "number and energy of impacts in bins of their energy, of which ten are a factor of ten, "
+     "every "
+     "N steps; needs impacts; * is the step",
+     nullptr,
+     [](Tokens &w, MeshSpec &s, InputNames &) { s.spectrum = read_file_every(w, ".csv"); }},
     {"mesh_stl", "FILE every N", "", "*.stl, N >= 1", "none",
      "the mesh where it is, as a binary STL, every N steps; * is the step", nullptr,
      [](Tokens &w, MeshSpec &s, InputNames &) { s.stl = read_file_every(w, ".stl"); }},

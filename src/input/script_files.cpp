@@ -17,6 +17,8 @@ std::vector<ScriptFile> files_of(const WallSpec &settings)
     for (const MotionTerm &term : m.motion.terms())
       if (!term.table_file.empty()) files.push_back({"motion table", term.table_file});
     if (m.fields.every > 0) files.push_back({"mesh_fields", m.fields.name, m.fields.every, true});
+    if (m.spectrum.every > 0)
+      files.push_back({"impact_spectrum", m.spectrum.name, m.spectrum.every, true});
     if (m.stl.every > 0) files.push_back({"mesh_stl", m.stl.name, m.stl.every, true});
     if (!m.cache_file.empty()) files.push_back({"cache", m.cache_file, 0, true});
   }

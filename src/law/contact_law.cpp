@@ -14,7 +14,7 @@ namespace lsdcd {
 
 bool ContactLaw::has_history() const
 {
-  if (is(NormalModel::jkr) || keeps_forces) return true;
+  if (is(NormalModel::jkr) || keeps_forces || keeps_touch) return true;
   for (const SubModel *row : rows_of(*this))
     if (row->stored.what) return true;
   return false;
@@ -53,6 +53,9 @@ int ContactLaw::history_kind() const
     if (row->stored.what) add(row->stored.what + std::string(";"));
   if (for_shapes && has_history()) add("arm;");
   if (keeps_forces) add("forces;");
+  ContactLaw without_touch = *this;
+  without_touch.keeps_touch = false;
+  if (!without_touch.has_history() && keeps_touch) add("touch;");
   return static_cast<int>(hash >> 1);
 }
 

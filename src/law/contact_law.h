@@ -56,6 +56,8 @@ struct ContactLaw {
   bool for_shapes = false;
   // A contact keeps its forces for the next step (KeptForces), in which books of energy need them.
   bool keeps_forces = false;
+  // A contact without anything to keep keeps that it touched, so that it is known when another one begins.
+  bool keeps_touch = false;
 
   bool is(NormalModel model) const { return normal == model; }
   // Returns whether it is one of LAMMPS's styles before `granular`. These have formulas of their own.

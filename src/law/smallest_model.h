@@ -113,7 +113,8 @@ auto with_granular_added_law(const ContactLaw &p, const Make &make)
                          : make(granular_model<false, true, true>(p, normal));
 }
 
-// Any law that keeps_forces: calls make(law) with one that has all effects, so that few are compiled with books of energy.
+// Any law that keeps_forces or keeps_touch: calls make(law) with one that has all effects, so that few are compiled with books of energy
+// and impacts.
 template <class Make>
 auto with_energy_law(const ContactLaw &p, const Make &make)
 {

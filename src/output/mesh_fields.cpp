@@ -42,6 +42,24 @@ std::vector<FaceField> load_fields(const WeldedMesh &mesh, const MeshLoads &load
   return fields;
 }
 
+std::vector<FaceField> energy_fields(const WeldedMesh &mesh, const EnergyPlaces &places,
+                                     bool with_energy, bool with_impacts)
+{
+  std::vector<FaceField> fields;
+  const std::vector<PlaceEnergy> faces = places.of_faces(mesh);
+  const auto add = [&](const char *name, Real PlaceEnergy::*member) {
+    FaceField &field = fields.emplace_back();
+    field.name = name;
+    for (const PlaceEnergy &p : faces) field.value.push_back(p.*member);
+  };
+  if (with_energy) add("dissipated_energy", &PlaceEnergy::dissipated);
+  if (!with_impacts) return fields;
+  add("impacts", &PlaceEnergy::impacts);
+  add("impact_energy", &PlaceEnergy::impact_energy);
+  add("impact_speed", &PlaceEnergy::impact_speed);
+  return fields;
+}
+
 void write_mesh_fields(const std::string &path, const WeldedMesh &mesh,
                        const std::vector<FaceField> &fields, long long step, double time,
                        const Pose &pose)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "motion/pose.h"
+#include "output/energy_places.h"
 #include "output/mesh_loads.h"
 
 #include <string>
@@ -23,6 +24,10 @@ struct FaceField {
 // wall are averages in the frame of the mesh, turned to where the pose has it.
 std::vector<FaceField> load_fields(const WeldedMesh &mesh, const MeshLoads &loads,
                                    double pressure_unit, bool with_wear, const Pose &pose = {});
+
+// Energy that contacts dissipate, and the number, energy and greatest speed of impacts, each where asked for.
+std::vector<FaceField> energy_fields(const WeldedMesh &mesh, const EnergyPlaces &places,
+                                     bool with_energy, bool with_impacts);
 
 // The mesh as the pose puts it, in a file of VTK's XML format for polygons (.vtp), which appears
 // whole or not at all. Throws InputError that names the file.

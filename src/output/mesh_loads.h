@@ -7,10 +7,10 @@
 #include "engine/results/step_results.h"
 #include "mesh/mesh_features.h"
 #include "mesh/welded_mesh.h"
+#include "output/by_feature.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace lsdcd {
@@ -40,7 +40,7 @@ class MeshLoads {
   Real time() const { return time_; }    // of the average
   void set_time(Real time) { time_ = time; }
   Real worn() const;    // length^3, in all
-  std::size_t bytes() const;
+  std::size_t bytes() const { return loads_.bytes(); }
 
   // Rows of kPackedLoad numbers, by feature; add_packed() adds to what is there.
   static constexpr int kPackedLoad = 8;
@@ -52,12 +52,8 @@ class MeshLoads {
   std::vector<Load> of_faces(const WeldedMesh &mesh) const;
 
  private:
-  Load &load(FeatureCode feature);
-
   Real time_ = 0;
-  std::unordered_map<FeatureCode, std::size_t> row_of_;
-  std::vector<FeatureCode> feature_;
-  std::vector<Load> load_;
+  ByFeature<Load> loads_;
 };
 
 }    // namespace lsdcd

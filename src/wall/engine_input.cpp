@@ -35,6 +35,8 @@ EngineSettings EngineInput::settings(Device device, bool virial, bool pushed) co
   want.contacts = of_all_steps_.contacts || wall_.has_loads() || virial;
   want.bodies = pushed;
   want.wear = wall_.wear.model;
+  want.energy_places = wall_.has_energy_places();
+  want.impact_speed = wall_.impact_speed;
   want.device = device;
   want.device_rank = host_.ranks().node_rank;
   want.names = host_.names();

@@ -55,6 +55,8 @@ WallState StateKeeper::save(Time time)
     to.loads = {loads.time(), loads.packed()};
     to.last = {{of_.totals.mesh(m.index), of_.coats.load(m.index)}};
     if (wall_.energy) to.energy = {of_.energy.mesh(m.index)};
+    if (wall_.has_energy_places(m.spec)) to.energy_places = of_.records.gathered(m.index).packed();
+    if (wall_.impact_speed > 0) to.impacts = of_.records.spectrum(m.index).packed();
     m.surface->save(to);
     m.mover.save(to);
     of_.coats.save(m.index, to, [this](int mesh, FeatureCode feature) {
@@ -150,6 +152,9 @@ void StateKeeper::restore_mesh(MeshPart &m, const WallState &all, const Step &no
   if (!was.mean.empty() && all.average_every == wall_.average_every)
     of_.means.restore(m.index, was.mean.front());
   if (!was.energy.empty()) of_.energy.restore(m.index, was.energy.front());
+  const bool has_same_places = !m.springs_are_foreign && wall_.has_energy_places(m.spec);
+  of_.records.restore(m.index, has_same_places ? was.energy_places : std::vector<Real>(),
+                      was.impacts);
   if (!was.last.empty()) of_.totals.restore(m.index, was.last.front().totals);
   if (!wall_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)

@@ -8,6 +8,7 @@
 #include "wall/grid_manager.h"
 #include "wall/saved/wall_state.h"
 #include "wall/sums/energy_books.h"
+#include "wall/sums/energy_recorder.h"
 #include "wall/sums/load_recorder.h"
 #include "wall/sums/mean_loads.h"
 #include "wall/sums/step_totals.h"
@@ -31,6 +32,7 @@ class StateKeeper {
     MeanLoads &means;
     LoadRecorder &loads;
     EnergyBooks &energy;
+    EnergyRecorder &records;
   };
 
   StateKeeper(Host &host, const WallSpec &wall, const Parts &of) : host_(host), wall_(wall), of_(of)

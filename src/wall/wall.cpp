@@ -24,11 +24,11 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     backend_(std::move(backend)), clock_(clock), pressure_unit_(units.pressure),
     engine_input_(host, spec_, laws_, meshes_), coats_(host, spec_, meshes_),
     history_(host, spec_.law()), totals_(host, spec_), means_(host, spec_), loads_(host, spec_),
-    energy_(host, spec_), files_(host, spec_, units.pressure), overlaps_(host, spec_),
-    search_(host), times_(host), timestep_(host, laws_, units.velocity), snapshots_(host, spec_),
-    box_checks_(host, spec_, meshes_),
+    energy_(host, spec_), records_(host, spec_), files_(host, spec_, units.pressure),
+    overlaps_(host, spec_), search_(host), times_(host), timestep_(host, laws_, units.velocity),
+    snapshots_(host, spec_), box_checks_(host, spec_, meshes_),
     grids_(host, spec_, laws_, meshes_, coats_, box_checks_, history_, times_),
-    keeper_(host, spec_, {meshes_, coats_, grids_, totals_, means_, loads_, energy_})
+    keeper_(host, spec_, {meshes_, coats_, grids_, totals_, means_, loads_, energy_, records_})
 {
   for (std::size_t k = 0; k < spec_.meshes.size(); k++) {
     MeshPart &m = meshes_.emplace_back(host_, spec_, laws_, static_cast<int>(k), units.velocity,
@@ -101,7 +101,8 @@ std::vector<int> Wall::inputs_read() const
 
 std::size_t Wall::bytes() const
 {
-  std::size_t bytes = engine_->bytes() + loads_.bytes() + history_.bytes() + coats_.bytes();
+  std::size_t bytes =
+      engine_->bytes() + loads_.bytes() + records_.bytes() + history_.bytes() + coats_.bytes();
   for (const MeshPart &m : meshes_) bytes += m.grid.bytes() + m.surface->bytes();
   return bytes;
 }
@@ -117,6 +118,7 @@ void Wall::make_engine()
   run_collectively(host_, true, [&] { made = backend_.make_engine(want); });
   give_nodes(host_, with_nodes_, engine_.get(), *made);
   loads_.set_engine(made->loads());    // while the last one is there
+  records_.set_engine(made->energies());
   engine_ = std::move(made);
   reads_loads_ = false;
   for (const MeshPart *m : recorded_)
@@ -497,14 +499,19 @@ void Wall::note_step(const HostSpheres &spheres)
     means_.add(step, left, poses_, node_loads(), coats_.loads());
   if (step.kind == Step::step)    // what sets a run up has no duration
     for (const MeshPart *m : recorded_) {
-      const MeshReport &has = m->grid.report();
       const bool is_in_place = engine_->loads();
-      if (left && is_in_place)
-        engine_->loads()->add(m->index, {has.facets, has.edges, has.vertices}, step.dt);
+      if (left && is_in_place) engine_->loads()->add(m->index, m->feature_counts(), step.dt);
       loads_.add(m->index, left && !is_in_place ? left->contacts() : none, step.dt,
                  left ? m->records() : MeshFeaturesView());
     }
   if (spec_.energy) energy_.add(left, step);
+  if (spec_.records_energy() && left && step.kind == Step::step)
+    for (const MeshPart &m : meshes_) {
+      if (engine_->energies())
+        records_.add(m.index, m.feature_counts());
+      else
+        records_.add(m.index, left->energy_records(), m.records());
+    }
   for (const MeshPart *m : changing_)
     if (left) m->surface->end(*left, step);
   if (step.kind == Step::setup) log_new_springs(step);
@@ -638,7 +645,7 @@ void Wall::write_due_files()
   for (const MeshPart &m : meshes_) meshes.push_back({m.mesh(), m.pose()});
   const bool has_loads = input_.step.kind != Step::snapshot;
   files_.write_due(input_.step.number, static_cast<double>(clock_.now()), meshes,
-                   has_loads ? &loads_ : nullptr);
+                   has_loads ? &loads_ : nullptr, records_);
   times_.end(TimeReport::files);
 }
 

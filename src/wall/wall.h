@@ -18,6 +18,7 @@
 #include "wall/spheres/host_spheres.h"
 #include "wall/state_keeper.h"
 #include "wall/sums/energy_books.h"
+#include "wall/sums/energy_recorder.h"
 #include "wall/sums/load_recorder.h"
 #include "wall/sums/mean_loads.h"
 #include "wall/sums/step_totals.h"
@@ -111,6 +112,8 @@ class Wall {
   const StepTotals &totals_with_power();
   MeanLoads &means() { return means_; }        // of spec().average_every steps
   EnergyBooks &energy() { return energy_; }    // of a wall with spec().energy
+  // Returns the spectrum of the impacts on a mesh, of a wall with spec().impact_speed.
+  ImpactSpectrum impacts(int mesh) { return records_.spectrum(mesh); }
   // Return the volume by which wear has moved a mesh back, and the volume that is worn but held back, see MeshWear. 0 of others.
   Real removed(int mesh) const { return meshes_[mesh].surface->removed(); }
   Real held_back(int mesh) const { return meshes_[mesh].surface->held_back(); }
@@ -269,6 +272,7 @@ class Wall {
   MeanLoads means_;
   LoadRecorder loads_;
   EnergyBooks energy_;
+  EnergyRecorder records_;
   WallFiles files_;
   OverlapMonitor overlaps_;
   SearchReport search_;

@@ -22,7 +22,7 @@ int WallFiles::every() const
 {
   int every = 0;
   for (const MeshSpec &m : settings_.meshes)
-    every = std::gcd(every, std::gcd(m.fields.every, m.stl.every));
+    every = std::gcd(every, std::gcd(m.spectrum.every, std::gcd(m.fields.every, m.stl.every)));
   return every;
 }
 
@@ -43,6 +43,7 @@ void WallFiles::begin_run(std::int64_t step)
   warned_ = false;
   for (std::size_t k = 0; k < settings_.meshes.size(); k++) {
     check(static_cast<int>(k), "mesh_fields", settings_.meshes[k].fields, step);
+    check(static_cast<int>(k), "impact_spectrum", settings_.meshes[k].spectrum, step);
     check(static_cast<int>(k), "mesh_stl", settings_.meshes[k].stl, step);
   }
 }
@@ -65,14 +66,20 @@ bool WallFiles::try_to_write(const std::string &lost, const std::function<void()
 }
 
 void WallFiles::write_fields(int mesh, std::int64_t step, double time, const PosedMesh &now,
-                             LoadRecorder &loads)
+                             LoadRecorder &loads, EnergyRecorder &energies)
 {
   const std::string name = settings_.meshes[mesh].fields.name, file = file_of_step(name, step);
   const MeshLoads all = loads.gathered(mesh);
+  const bool has_energy = settings_.has_energy_places(settings_.meshes[mesh]);
+  const EnergyPlaces places = has_energy ? energies.gathered(mesh) : EnergyPlaces();
   const auto write = [&] {
-    write_mesh_fields(file, *now.mesh,
-                      load_fields(*now.mesh, all, pressure_unit_, settings_.wears(), now.pose),
-                      step, time, now.pose);
+    std::vector<FaceField> fields =
+        load_fields(*now.mesh, all, pressure_unit_, settings_.wears(), now.pose);
+    if (has_energy)
+      for (FaceField &field :
+           energy_fields(*now.mesh, places, settings_.energy, settings_.impact_speed > 0))
+        fields.push_back(std::move(field));
+    write_mesh_fields(file, *now.mesh, fields, step, time, now.pose);
   };
   if (!try_to_write("there are no mesh_fields of this step, and the next file averages over these "
                     "steps, too",
@@ -93,14 +100,20 @@ void WallFiles::write_fields(int mesh, std::int64_t step, double time, const Pos
 }
 
 void WallFiles::write_due(std::int64_t step, double time, const std::vector<PosedMesh> &meshes,
-                          LoadRecorder *loads)
+                          LoadRecorder *loads, EnergyRecorder &energies)
 {
   const auto is_due = [step](const FileEvery &file) {
     return file.every > 0 && step % file.every == 0;
   };
   for (std::size_t k = 0; k < meshes.size(); k++) {
     const MeshSpec &m = settings_.meshes[k];
-    if (is_due(m.fields) && loads) write_fields(static_cast<int>(k), step, time, meshes[k], *loads);
+    if (is_due(m.fields) && loads)
+      write_fields(static_cast<int>(k), step, time, meshes[k], *loads, energies);
+    if (is_due(m.spectrum)) {
+      const ImpactSpectrum spectrum = energies.spectrum(static_cast<int>(k));
+      try_to_write("there is no impact_spectrum of this step",
+                   [&] { write_spectrum(file_of_step(m.spectrum.name, step), spectrum); });
+    }
     if (is_due(m.stl))
       try_to_write("there is no mesh_stl of this step", [&] {
         write_mesh_stl(file_of_step(m.stl.name, step), *meshes[k].mesh, meshes[k].pose);

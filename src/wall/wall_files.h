@@ -5,6 +5,7 @@
 #pragma once
 
 #include "output/file_series.h"
+#include "wall/sums/energy_recorder.h"
 #include "wall/sums/load_recorder.h"
 
 #include <cstdint>
@@ -43,13 +44,13 @@ class WallFiles {
   // no mesh_fields then. An average that is written begins again; one that could not be written goes on
   // to the next file. Collective.
   void write_due(std::int64_t step, double time, const std::vector<PosedMesh> &meshes,
-                 LoadRecorder *loads);
+                 LoadRecorder *loads, EnergyRecorder &energies);
 
  private:
   void check(int mesh, const char *keyword, const FileEvery &file, std::int64_t step);
   bool try_to_write(const std::string &lost, const std::function<void()> &write);
   void write_fields(int mesh, std::int64_t step, double time, const PosedMesh &now,
-                    LoadRecorder &loads);
+                    LoadRecorder &loads, EnergyRecorder &energies);
 
   Host &host_;
   const WallSpec &settings_;

@@ -181,6 +181,15 @@ Real energy_of_all(Wall &wall, int d)
   return get(wall.energy().of_all(), d);
 }
 
+Real impacts(Wall &wall, int mesh, int /* d */)
+{
+  return wall.impacts(mesh).impacts();
+}
+Real impact_energy(Wall &wall, int mesh, int /* d */)
+{
+  return wall.impacts(mesh).energy();
+}
+
 bool has_servo(const MeshSpec &m)
 {
   return m.motion.servo().present;
@@ -216,6 +225,8 @@ bool has(const WallSpec &wall, OutputPart part)
       return any(has_motion);
     case OutputPart::energy:
       return wall.energy;
+    case OutputPart::impacts:
+      return wall.impact_speed > 0;
     default:
       return true;
   }
@@ -318,7 +329,11 @@ const std::vector<WallOutput> &wall_outputs()
       {1, "held", "elastic energy of contacts after the last step", "energy units", adds_up,
        P::energy, energy_of<sum_of<EnergyRow::held>>, energy_of_all<sum_of<EnergyRow::held>>},
       {1, "remainder", "contact work less all of the rows above: what the timestep costs",
-       "energy units", adds_up, P::energy, energy_of<remainder>, energy_of_all<remainder>}};
+       "energy units", adds_up, P::energy, energy_of<remainder>, energy_of_all<remainder>},
+      {1, "impacts", "number of impacts since the beginning", "", adds_up, P::impacts, impacts,
+       nullptr},
+      {1, "impact_energy", "their energy, the sum of m v^2/2 with the speed along the normal",
+       "energy units", adds_up, P::impacts, impact_energy, nullptr}};
   return all;
 }
 

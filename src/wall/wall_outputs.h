@@ -11,7 +11,7 @@
 namespace lsdcd {
 
 // What a wall must have for a row of outputs to be more than 0.
-enum class OutputPart { every_wall, servo, body, wear, nodes, means, motion, energy };
+enum class OutputPart { every_wall, servo, body, wear, nodes, means, motion, energy, impacts };
 
 struct WallOutput {
   int n;    // columns

@@ -9,8 +9,8 @@ without a GPU or tools of CUDA's.
 usage: test_kernel_sizes.py FILE ... [--keep], with LSDCD_COMPILER set. FILE: a library or objects
 
 A case is a kernel and what it is made of, with its largest instance; kernels below 8 kB are left out. Stacks are those of
-the kernels of a step, which run beside all spheres of a program. Walls whose nodes move and those that book energy are left
-out: they ask for more.
+the kernels of a step, which run beside all spheres of a program. Walls whose nodes move and those that book energy or
+have impacts are left out: they ask for more.
 """
 import os
 import pathlib
@@ -28,8 +28,10 @@ SYMBOLS = 2    # the type of a section
 # In .nv.info: a format, of which 4 has a length, and an attribute.
 MIN_STACK_SIZE = 0x0412
 REGISTERS = 0x042f
-# In a name: the wall moves and has records, and its nodes move, or it books energy.
-WITH_NODES, WITH_ENERGY = "ELb1ELb1ELb1ELb0EEE", "ELb1ELb1ELb0ELb1EEE"
+# Words in a name, of cases of their own: the wall moves and has records, and its nodes move, or it books energy, by triangle, too, or
+# has impacts.
+KINDS = {"ELb1ELb1ELb1ELb0ELb0EEE": " at nodes that move", "ELb1ELb1ELb0ELb1ELb0EEE": " with books of energy",
+         "ELb1ELb1ELb0ELb1ELb1EEE": " with energy of triangles", "ELb1ELb1ELb0ELb0ELb1EEE": " with impacts"}
 MOST_STACK = 1024    # bytes a thread; a driver sets more aside for every thread that a GPU can hold
 
 
@@ -97,11 +99,11 @@ found = {}
 for name, (mangled, size) in zip(full, kernels):
     if "lsdcd::" in name and "cub::" not in name and size >= SMALLEST:
         case = case_of(name)
-        case += " at nodes that move" if WITH_NODES in mangled else " with books of energy" if WITH_ENERGY in mangled else ""
+        case += "".join(words for kind, words in KINDS.items() if kind in mangled)
         found[case] = max(size, found.get(case, 0))
         found[case + ", registers"] = max(registers[mangled], found.get(case + ", registers", 0))
 of_steps = [(size, name) for data in contents for name, size in attributes(data, MIN_STACK_SIZE)
-            if "StepPart" in name and WITH_NODES not in name and WITH_ENERGY not in name]
+            if "StepPart" in name and not any(kind in name for kind in KINDS)]
 size, name = max(of_steps, default=(0, ""))
 print(f"{len(of_steps)} kernels of a step: stacks of {size} bytes at most, of {MOST_STACK}")
 if size > MOST_STACK:

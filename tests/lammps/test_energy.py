@@ -217,6 +217,139 @@ def test_belt(folder):
     close("the books close", b["remainder"], 0, lost, 1e-11)
 
 
+# ---- bodies, servos, several meshes ------------------------------------------------------
+
+BODY = "body mass {mass} com 0 0 0 inertia 1 1 1 0 0 0 joint slider {axis} {more}"
+KINETIC = "f_wall[35]"    # of the body
+
+
+def with_body(folder, law, dt, run, words, x=DOWN, v="0 0 0", move="fix move all nve/sphere", script=SPHERE):
+    """The last row, with the kinetic energy of the body, `body`."""
+    text = script.replace("mesh floor.stl energy", f"mesh floor.stl {words} energy")
+    text = text.format(x=x, v=v, move=move, law=law, dt=repr(dt), columns=" ".join([*COLUMNS, KINETIC]), run=run)
+    row = lmp.read_thermo(lmp.run_well(text, folder))[-1]
+    return dict(zip(("step", "ke", "spin", *NAMES, "body"), row))
+
+
+def test_body_that_is_braked(folder):
+    """A plate that slides below a sphere which presses it down, held by its slider: it loses mu F s."""
+    mu, v, mass, dt, n = 0.3, 0.7, 500.0, 1e-4, 4000
+    words = BODY.format(mass=mass, axis="1 0 0", more=f"velocity {v} 0 0")
+    b = with_body(folder, f"hooke {KN} NULL 0 1e3 {mu} 1", dt, f"run {n}", words, move=HELD.format(v="0 0 0"))
+    half, force, t = 0.5 * mass * v * v, mu * PRESS, dt * n
+    way = v * t - 0.5 * force / mass * t * t
+    close("loss", b["slider"], force * way, force * way, 1e-9)
+    close("what the body loses", half - b["body"], force * way, half, 1e-9)
+    close("the work of the mesh is that", b["drive"], half - b["body"], half, 1e-9)
+    close("the books close", b["remainder"], 0, force * way, 1e-11)
+    nothing_but(b, half, "slider", "inserted")
+
+
+def test_bounce_off_a_body(folder):
+    """A sphere of mass 1 that hits a plate of mass 3, with a restitution of 0.5: (1 - e^2) m_e v^2/2 is lost, with m_e = 3/4."""
+    kn, ln_e, mass = 1e4, math.log(E), 0.75
+    gamma = -2 * ln_e / math.sqrt(math.pi ** 2 + ln_e ** 2) * math.sqrt(kn / mass)
+    half, means = 0.5 * mass, {}
+    for n in (50, 100):
+        dt = math.pi / math.sqrt(kn / mass - gamma ** 2 / 4) / n
+        # The damping of hooke is times the mass of the contact.
+        rows = [with_body(folder, f"hooke {kn} NULL {gamma!r} NULL 0 0", dt, f"run {3 * n}", BODY.format(mass=3, axis="0 0 1", more=""),
+                          x=f"0.3 0.2 {0.5 + (5 + k / 8) * dt!r}", v="0 0 -1") for k in range(8)]
+        means[n] = sum(r["remainder"] for r in rows) / 8 / half
+        for r in rows:
+            at_most(f"{n}: energy that is lost, and the change of kinetic energy", abs(r["work"] + r["body"] + r["ke"] - 0.5), 1e-12)
+            nothing_but(r, half, "damping")
+        close("the bounce loses", sum(r["damping"] for r in rows) / 8 / half, 1 - E ** 2, 1, 0.03)
+    close("the remainder falls with dt^2", means[50] / means[100], 4, 4, 0.1)
+
+
+CASK = """\
+units           lj
+atom_style      sphere
+atom_modify     map array
+boundary        f f f
+newton          off
+comm_modify     vel yes
+region          box block -2 2 -2 2 -2 2
+create_box      1 box
+lattice         sc 20
+region          in block -0.7 0.7 -0.7 0.7 -0.7 0.7 units box
+create_atoms    1 region in
+set             group all diameter 0.2 mass 1
+velocity        all create 2.0 4711
+pair_style      zero 0.3
+pair_coeff      * *
+fix             move all nve/sphere
+fix             g all gravity 1 vector 0 0 -1
+fix             wall all wall/lsdcd {law} mesh cask.stl {words} energy
+timestep        {dt}
+compute         move all ke
+compute         spin all erotate/sphere
+thermo_style    custom step c_move c_spin {columns}
+thermo_modify   format float %.17g norm no
+thermo          1000000
+{run}
+"""
+CASK_LAW = "granular hooke 1e4 5 damping mass_velocity tangential linear_history 5e3 1 0.4 rolling sds 50 0.1 0.05 twisting sds 5 0 0.01"
+
+
+def test_body_with_a_motor(folder):
+    """A closed cask that a motor turns with grains inside: the motor's work is the cask's energy and what it gives to the grains."""
+    torque, remainders = 30.0, []
+    stl.write(folder / "cask.stl", stl.box((-1, -1, -1), (1, 1, 1), 3))
+    for per_contact in (50, 100):
+        dt = math.pi / math.sqrt(1e4) / per_contact
+        b = lmp.read_thermo(lmp.run_well(CASK.format(
+            law=CASK_LAW, dt=repr(dt), run=f"run {round(1.5 / dt)}", columns=" ".join([*COLUMNS, KINETIC, "f_wall[34]"]),
+            words=f"body mass 50 com 0 0 0 inertia 30 30 30 0 0 0 joint hinge 0 0 0 0 1 0 motor {torque}"), folder))[-1]
+        b = dict(zip(("step", "ke", "spin", *NAMES, "body", "angle"), b))
+        motor = torque * b["angle"]
+        fact("it has turned the grains", b["drive"] > 0.05 * motor and b["slider"] > 0 and b["rolling"] > 0, b)
+        close("the motor's work", b["body"] + b["drive"], motor, motor, 1e-4)
+        remainders.append(b["remainder"] / b["drive"])
+    at_most("the remainder", abs(remainders[1]), 1e-3)
+
+
+def test_servo(folder):
+    """A plate that a servo presses on a sphere that is held: the servo's work is what the contact holds and loses."""
+    b = with_body(folder, f"hooke {KN} NULL 20 NULL 0 0", 1e-4, "run 20000", "servo force z 50 vmax 0.05",
+                  x="0.3 0.2 0.51", move=HELD.format(v="0 0 0"))
+    held = 50 ** 2 / KN / 2
+    close("it presses", b["held"], held, held, 1e-3)
+    close("the servo's work", b["drive"], b["held"] + b["damping"], held, 1e-4)
+    at_most("the books close", abs(b["remainder"]) / held, 1e-4)
+
+
+def test_limit_damping(folder):
+    """Damping that may not pull: what it loses is still the change of the kinetic energy."""
+    means = {}
+    for n in (50, 100):
+        dt = math.pi / math.sqrt(KN) / n
+        rows = [books(folder, f"granular hooke {KN} 90 damping mass_velocity tangential linear_nohistory 0 0 limit_damping", dt, f"run {4 * n}",
+                      v="0 0 -1", x=f"0.3 0.2 {0.5 + (5 + k / 8) * dt!r}") for k in range(8)]
+        for r in rows:
+            at_most("work, and the change of kinetic energy", abs(r["work"] - (0.5 - r["ke"])), 1e-12)
+            nothing_but(r, 0.5, "damping")
+        means[n] = sum(r["remainder"] for r in rows) / 8
+    fact("the remainder falls with dt^2", 3 < means[50] / means[100] < 5, means)
+
+
+def test_several_meshes(folder):
+    """A cask of six meshes, each a side of it, and one of all sides: books are the same where one mesh hands springs to another."""
+    dt = math.pi / math.sqrt(1e4) / 100
+    sides = [stl.box((-1, -1, -1), (1, 1, 1), 3)[18 * k:18 * k + 18] for k in range(6)]
+    for k, side in enumerate(sides):
+        stl.write(folder / f"side{k}.stl", side)
+    stl.write(folder / "cask.stl", sum(sides, []))
+    turn = "motion rotate 0 0 0 0 1 0 2"
+    scripts = CASK, CASK.replace("mesh cask.stl {words} energy", " ".join(f"mesh side{k}.stl {{words}}" for k in range(6)) + " energy")
+    one, six = (row_of(lmp.run_well(script.format(law=CASK_LAW, dt=repr(dt), run=f"run {round(0.5 / dt)}", columns=" ".join(COLUMNS), words=turn), folder))
+                for script in scripts)
+    for name in NAMES:
+        close(name, six[name], one[name], one["drive"], 1e-6)
+    at_most("the books close", abs(six["remainder"]) / six["drive"], 1e-3)
+
+
 # ---- a ball mill -------------------------------------------------------------------------
 
 def mill(name, radius=0.15, length=0.06, lifters=8, height=0.02, sides=48):

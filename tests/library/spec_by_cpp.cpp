@@ -58,12 +58,13 @@ lsdcd::WallMesh mesh_of(const lsdcd_wall_mesh &given, const lsdcd::Mesh &any)
   const auto &[size, mesh, name, placement, law, type_laws, n_type_laws, posed_by_caller, motions,
                n_motions, servo, surface_velocity, surface_angular_velocity, surface_centre,
                temperature, torque_about, torque_about_moves, wear_factor, cache, fields, stl,
-               fields_every, stl_every, nodes_by_caller, pressure, body] = given;
+               spectrum, fields_every, stl_every, spectrum_every, nodes_by_caller, pressure, body] =
+      given;
   lsdcd::WallMesh out(any);
   auto &[mesh_, name_, placement_, law_, type_laws_, posed_, motions_, servo_, body_,
          surface_velocity_, surface_angular_velocity_, surface_centre_, temperature_, torque_about_,
-         torque_about_moves_, wear_factor_, cache_, fields_, stl_, fields_every_, stl_every_,
-         nodes_by_caller_, pressure_] = out;
+         torque_about_moves_, wear_factor_, cache_, fields_, stl_, spectrum_, fields_every_,
+         stl_every_, spectrum_every_, nodes_by_caller_, pressure_] = out;
   mesh_ = mesh;
   name_ = text_or_none(name);
   std::copy_n(placement, 12, const_cast<double *>(placement_.numbers().data()));
@@ -88,8 +89,10 @@ lsdcd::WallMesh mesh_of(const lsdcd_wall_mesh &given, const lsdcd::Mesh &any)
   cache_ = text_or_none(cache);
   fields_ = text_or_none(fields);
   stl_ = text_or_none(stl);
+  spectrum_ = text_or_none(spectrum);
   fields_every_ = fields_every;
   stl_every_ = stl_every;
+  spectrum_every_ = spectrum_every;
   nodes_by_caller_ = nodes_by_caller != 0;
   pressure_ = pressure;
   (void) size;
@@ -100,11 +103,11 @@ lsdcd::WallSpec spec_of(const lsdcd_wall_spec &given, const lsdcd::Mesh &any)
 {
   const auto &[size, law, meshes, n_meshes, corner, side, nearest, cell, memory, rmax, device, wear,
                wear_coefficient, hardness, wear_deform_every, wear_deform_factor, periodic_ends,
-               brief, average_every, each_contact, energy, shapes] = given;
+               brief, average_every, each_contact, energy, impact_speed, shapes] = given;
   lsdcd::WallSpec out;
   auto &[law_, meshes_, corner_, side_, nearest_, cell_, memory_, rmax_, device_, wear_,
          wear_coefficient_, hardness_, wear_deform_every_, wear_deform_factor_, periodic_ends_,
-         brief_, average_every_, each_contact_, energy_, shapes_] = out;
+         brief_, average_every_, each_contact_, energy_, impact_speed_, shapes_] = out;
   law_ = law_of(*law);
   for (std::size_t k = 0; k < n_meshes; k++) meshes_.push_back(mesh_of(meshes[k], any));
   corner_ = corner;
@@ -124,6 +127,7 @@ lsdcd::WallSpec spec_of(const lsdcd_wall_spec &given, const lsdcd::Mesh &any)
   average_every_ = average_every;
   each_contact_ = each_contact != 0;
   energy_ = energy != 0;
+  impact_speed_ = impact_speed;
   shapes_ = shapes != 0;
   (void) size;
   return out;

@@ -63,7 +63,7 @@ class Lines {
   {
     const auto &[normal, k_normal, modulus, surface_energy, damping, eta, tangential, k_tangent,
                  gamma_tangent, xgammat, mu, rolling, twisting, heat, cohesion, limit_damping,
-                 for_shapes, keeps_forces] = law;
+                 for_shapes, keeps_forces, keeps_touch] = law;
     put(of + "normal", normal);
     put(of + "k_normal", k_normal);
     put(of + "modulus", modulus);
@@ -82,6 +82,7 @@ class Lines {
     put(of + "limit_damping", limit_damping);
     put(of + "for_shapes", for_shapes);
     put(of + "keeps_forces", keeps_forces);
+    put(of + "keeps_touch", keeps_touch);
   }
   void put(const std::string &of, const std::vector<LawOfTypes> &laws)
   {
@@ -182,7 +183,7 @@ class Lines {
     const auto &[name, file, mesh, welded_vertex, placement, weld, laws, motion, body, has_nodes,
                  node_group, pressure, pressure_input, surface, surface_input, has_temperature,
                  temperature, temperature_input, wear_factor, torque_about_mesh, torque_about, stl,
-                 fields, cache_file] = mesh_spec;
+                 fields, spectrum, cache_file] = mesh_spec;
     const auto &[velocity, angular, centre] = surface;
     put(of + "name", name);
     put(of + "file", file);
@@ -214,13 +215,14 @@ class Lines {
     put(of + "torque_about", torque_about);
     put(of + "stl", stl);
     put(of + "fields", fields);
+    put(of + "spectrum", spectrum);
     put(of + "cache_file", cache_file);
   }
   void put(const WallSpec &spec)
   {
     const auto &[laws, meshes, inputs, corner, side, device, grid_length, rmax, nearest,
                  memory_budget, wear, wear_deform, average_every, contacts, each_contact, energy,
-                 shapes, periodic, brief] = spec;
+                 impact_speed, shapes, periodic, brief] = spec;
     const auto &[model, per_work] = wear;
     const auto &[every, factor] = wear_deform;
     put("law", laws);
@@ -243,6 +245,7 @@ class Lines {
     put("contacts", contacts);
     put("each_contact", each_contact);
     put("energy", energy);
+    put("impact_speed", impact_speed);
     put("shapes", shapes);
     put("periodic", periodic);
     put("brief", brief);

@@ -366,6 +366,34 @@ TEST_F(wall_spec, gives_each_contact_of_the_last_step)
   EXPECT_EQ(spheres[0], -7);    // too little room: nothing is written
 }
 
+// A sphere of mass 1 that comes down at speed 2.
+TEST_F(wall_spec, gives_the_spectrum_of_impacts)
+{
+  api::WallSpec spec = floor();
+  spec.impact_speed = 0.1;
+  api::Wall wall(spec);
+  Grains grains(1, 2, 0.5);
+  grains.v[2] = -2;
+  grains.x[2] += 1e-9;
+  grains.step(wall);
+  EXPECT_TRUE(wall.impacts(0).empty());
+  grains.x[2] -= 2e-9;
+  grains.step(wall, 2);
+  const std::vector<api::ImpactBin> bins = wall.impacts(0);
+  ASSERT_EQ(bins.size(), 1u);
+  EXPECT_LE(bins[0].begins, 2);
+  EXPECT_GT(bins[0].ends, 2);
+  EXPECT_EQ(bins[0].impacts, 1);
+  EXPECT_NEAR(bins[0].energy, 2, 1e-13);
+  double begins = -7;
+  lsdcd_wall_impacts few = {};
+  few.size = sizeof few;
+  few.begins = &begins;
+  EXPECT_EQ(lsdcd_wall_get_impacts(wall.get(), 0, &few), LSDCD_OK);
+  EXPECT_EQ(few.bins, 1u);
+  EXPECT_EQ(begins, -7);    // too little room: nothing is written
+}
+
 // ---- wear that moves the wall ----------------------------------------------------------------
 
 api::WallSpec receding(api::WallSpec spec)

@@ -515,6 +515,15 @@ def test_wall_specs():
              np.allclose(found.overlap, 0.5 - x[:, 2], rtol=0, atol=1e-15) and
              np.allclose(found.force, last, rtol=0, atol=1e-12), found)
         refused("contacts that a wall does not keep", "set each_contact", floor_of(hooke).contacts, lsdcd.Error)
+        hit = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh)], impact_speed=0.1))
+        high, down = np.array([[0.3, 0.2, 0.5005], [1.5, -1, 0.5005]]), np.array([[0, 0, -1.0], [0, 0, -2.0]])
+        for k in range(2):
+            hit.step(high + k * down * 1e-3, down, omega * 0, radius, mass, *np.zeros((2, 2, 3)), dt=1e-3)
+        bins, totals = hit.impacts(), hit.totals()
+        fact("two impacts of m v^2/2 are in their bins", bins.impacts[[0, -1]].tolist() == [1, 1] and bins.impacts.sum() == 2 and
+             np.allclose(bins.energy[[0, -1]], [0.5, 2], rtol=1e-12, atol=0) and (totals.impacts, round(totals.impact_energy, 11)) == (2, 2.5) and
+             bins.begins[0] <= 0.5 < bins.ends[0] and bins.begins[-1] <= 2 < bins.ends[-1] and np.array_equal(bins.ends[:-1], bins.begins[1:]), bins)
+        refused("impacts that a wall does not record", "set impact_speed", each.impacts, lsdcd.Error)
         materials = os.path.join(folder, "some.lsdcd")
         with open(materials, "w", encoding="ascii") as f:
             f.write("units si\nmaterial glass\nyoungs_modulus 5e4 Pa\npoissons_ratio 0.23 1\npair glass glass\n"

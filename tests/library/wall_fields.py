@@ -97,6 +97,7 @@ BASES = {
     "wears": {"mesh": {"mesh": BOX}, "wall": {"wear": ("archard", 1e-6, 1e5)}},
     "recedes": {"mesh": {"mesh": BOX}, "wall": {"wear": ("archard", 1e-6, 1e5), "wear_deform": (3, 2.0)}},
     "fields": {"mesh": {"fields": (str(FOLDER / "a.*.vtp"), 50), "stl": (str(FOLDER / "a.*.stl"), 50)}},
+    "hit": {"mesh": {"spectrum": (str(FOLDER / "a.*.csv"), 50)}, "wall": {"impact_speed": 0.01}},
     "averaged": {"wall": {"average": 8}}, "nearest": {"wall": {"nearest": 2, "cell": 2.0}}, "periodic": {"options": {
         "lo": (-4, -4, -4), "hi": (4, 4, 4), "periodic": (True, True, False), "margin": 0.5}}}
 for name, numbers in (("one", TABLE), ("other", TABLE[:2])):
@@ -119,7 +120,8 @@ BASE_WORDS = {
     "file": TABLE_WORDS, "servo": "servo force z 30 vmax 0.2", "torque": "servo torque z 3 vmax 0.2", "slider": f"body {BODY}", "hinge": f"body {HINGE}",
     "dense": "body density 0.5", "above": f"body {BODY} {BELOW_WORDS}", "coated": f"body {BODY} coat 1 0.1 {BELOW_WORDS}", "nodes": "nodes some",
     "wears": "wear archard 1e-6 1e5", "recedes": "wear archard 1e-6 1e5 deform every 3 factor 2",
-    "fields": f"mesh_fields {FOLDER}/a.*.vtp every 50 mesh_stl {FOLDER}/a.*.stl every 50", "averaged": "average 8"}
+    "fields": f"mesh_fields {FOLDER}/a.*.vtp every 50 mesh_stl {FOLDER}/a.*.stl every 50", "averaged": "average 8",
+    "hit": f"impact_spectrum {FOLDER}/a.*.csv every 50 impacts 0.01"}
 ON_BOX = ("box", "slider", "hinge", "dense", "above", "coated", "wears", "recedes")
 
 
@@ -195,7 +197,8 @@ FIELDS = {
         "wear_deform_every": of_wall("recedes", REFUSED, wear_deform=(4, 2.0)), "wear_deform_factor": of_wall("recedes", REFUSED, wear_deform=(3, 1.0)),
         "periodic_ends": of_wall("floor", EXACT, periodic_ends=True), "brief": of_wall("floor", EXACT, brief=True),
         "average_every": [of_wall("averaged", REFUSED, average=7), of_wall("floor", REFUSED, average=8), of_wall("averaged", REFUSED, average=0)],
-        "each_contact": of_wall("floor", EXACT, each_contact=True), "energy": of_wall("floor", REFUSED, energy=True), "shapes": of_wall("floor", REFUSED, shapes=True)},
+        "each_contact": of_wall("floor", EXACT, each_contact=True), "energy": of_wall("floor", REFUSED, energy=True),
+        "impact_speed": [of_wall("floor", REFUSED, impact_speed=0.01), of_wall("hit", REFUSED, impact_speed=0.02)], "shapes": of_wall("floor", REFUSED, shapes=True)},
     "lsdcd_wall_mesh": {
         "size": SIZE, "mesh": of_mesh("floor", REFUSED, mesh=WIDER), "name": of_mesh("floor", EXACT, name="another"),
         "placement": of_mesh("floor", REFUSED, placement=lsdcd.Placement().scale(1, 1, 2).move(0, 0, 0.25)), "law": of_mesh("floor", REFUSED, law=law(xmu=0.4)),
@@ -209,6 +212,7 @@ FIELDS = {
         "torque_about": of_mesh("floor", REFUSED, torque_about=(0, 0, 0.5)),
         "torque_about_moves": of_mesh("linear", REFUSED, torque_about_moves=True), "wear_factor": of_mesh("wears", REFUSED, wear_factor=3.0),
         "cache": of_mesh("floor", EXACT, cache=FOLDER / "grid.bin"), "fields": of_mesh("fields", EXACT, fields=(str(FOLDER / "b.*.vtp"), 50)),
+        "spectrum": of_mesh("hit", EXACT, spectrum=(str(FOLDER / "b.*.csv"), 50)), "spectrum_every": of_mesh("hit", EXACT, spectrum=(str(FOLDER / "a.*.csv"), 60)),
         "stl": of_mesh("fields", EXACT, stl=(str(FOLDER / "b.*.stl"), 50)),
         "fields_every": [of_mesh("fields", REFUSED, fields=(str(FOLDER / "a.*.vtp"), 60)),
                          of_mesh("floor", REFUSED, fields=(str(FOLDER / "a.*.vtp"), 50))],
@@ -282,7 +286,7 @@ LINES = {
     "wall_spec.wear_deform_factor": ("wear_deform.factor = 1", "wear archard 1e-6 1e5 deform every 3"),
     "wall_spec.periodic_ends": ("periodic = 1", "periodic"), "wall_spec.brief": ("brief = 1", "log brief"),
     "wall_spec.average_every": ("average_every = 7", "average 7"), "wall_spec.each_contact": ("each_contact = 1", "each_contact"),
-    "wall_spec.energy": ("energy = 1; ...", "energy"),
+    "wall_spec.energy": ("energy = 1; ...", "energy"), "wall_spec.impact_speed": ("impact_speed = 0.01; ...", "impacts 0.01"),
     "wall_spec.shapes": ("law0.for_shapes = 1; shapes = 1", None),    # atoms say it
     "wall_mesh.mesh": ("mesh0.vertices = 4.5", None), "wall_mesh.name": ("mesh0.name = another", None),
     "wall_mesh.placement": ("mesh0.placement.row2 = 0 0 2; mesh0.placement.shift = 0 0 0.25", "scale 1 1 2 move 0 0 0.25"),
@@ -300,6 +304,8 @@ LINES = {
     "wall_mesh.torque_about_moves": ("mesh0.torque_about_mesh = 1", "motion linear 0 0 0.05 torque_about mesh"),
     "wall_mesh.wear_factor": ("mesh0.wear_factor = 3", "wear archard 1e-6 1e5 wear_factor 3"), "wall_mesh.cache": (f"mesh0.cache_file = {FOLDER}/grid.bin", f"cache {FOLDER}/grid.bin"),
     "wall_mesh.fields": (f"mesh0.fields.name = {FOLDER}/b.*.vtp", f"mesh_fields {FOLDER}/b.*.vtp every 50 mesh_stl {FOLDER}/a.*.stl every 50"),
+    "wall_mesh.spectrum": (f"mesh0.spectrum.name = {FOLDER}/b.*.csv", f"impact_spectrum {FOLDER}/b.*.csv every 50 impacts 0.01"),
+    "wall_mesh.spectrum_every": ("mesh0.spectrum.every = 60", f"impact_spectrum {FOLDER}/a.*.csv every 60 impacts 0.01"),
     "wall_mesh.stl": (f"mesh0.stl.name = {FOLDER}/b.*.stl", f"mesh_fields {FOLDER}/a.*.vtp every 50 mesh_stl {FOLDER}/b.*.stl every 50"),
     "wall_mesh.fields_every": ("mesh0.fields.every = 60", f"mesh_fields {FOLDER}/a.*.vtp every 60 mesh_stl {FOLDER}/a.*.stl every 50"),
     "wall_mesh.stl_every": ("mesh0.stl.every = 60", f"mesh_fields {FOLDER}/a.*.vtp every 50 mesh_stl {FOLDER}/a.*.stl every 60"),
@@ -363,7 +369,7 @@ ENCODED = {
     "a law of all types from 3 on": ("typed", {"mesh": {"type_laws": [TYPED["type_laws"][0], (3, None, law(kn=1.2e4))]}},
                                      "mesh0.law1.first_type = 3", TYPE_WORDS.replace("2*", "3*"))}
 # Structs that are given to each step, answers, and what is of no wall.
-OTHERS = {"of each step": ("spheres", "wall_step"), "answers": ("wall_totals", "wall_contacts", "body_state"),
+OTHERS = {"of each step": ("spheres", "wall_step"), "answers": ("wall_totals", "wall_contacts", "wall_impacts", "body_state"),
           "of no wall": ("mesh_facts", "mesh_arrays", "grid_options", "grid_facts", "query", "contacts", "shape_facts", "shapes", "body_options",
                          "body_facts", "collision", "sub_model_facts", "override", "materials")}
 

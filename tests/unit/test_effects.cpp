@@ -42,7 +42,8 @@ TEST(effects, keep_the_bytes_of_the_table_and_no_others)
     EXPECT_EQ(bytes_per_atom(c.settings), history ? 8 : 0) << c.name;
     EXPECT_EQ(bytes_per_contact(c.settings), history ? 56 + 8 * c.settings.law().n_extra() : 0)
         << c.name;
-    const bool records = c.settings.contacts || c.settings.bodies || c.settings.law().keeps_forces;
+    const bool records = c.settings.contacts || c.settings.bodies ||
+                         c.settings.law().keeps_forces || c.settings.impact_speed > 0;
     EXPECT_EQ(scene.engine->results().n_contacts(), records ? kSpheres : 0) << c.name;
   }
 }
@@ -83,13 +84,14 @@ TEST(effects, that_are_off_take_no_memory_of_the_engine)
     const std::size_t slots = 2 * grown(4 * kSpheres + 65536);
     const EngineSettings &s = c.settings;
     const bool history = s.law().has_history(), booked = s.law().keeps_forces,
-               recorded = s.contacts || s.bodies || booked;
+               recorded = s.contacts || s.bodies || booked || s.impact_speed > 0;
     const std::size_t per_slot = history * (sizeof(Spring) + s.law().n_extra() * sizeof(Real)) +
                                  recorded * sizeof(StepContact);
     const std::size_t expected = least + slots * per_slot + history * 2 * kSpheres * sizeof(int) +
                                  s.law().has_heat() * grown(kSpheres) * sizeof(Real) +
                                  booked * grown(kSpheres) * (sizeof(EnergyRows) + 1) +
-                                 recorded * grown(kSpheres) * sizeof(int);
+                                 recorded * grown(kSpheres) * sizeof(int) +
+                                 s.records_energy() * grown(slots) * sizeof(EnergyRecord);
     const std::size_t records = recorded ? 1024 * sizeof(StepContact) : 0;    // grown by doubling
     EXPECT_GE(bytes, expected) << c.name;
     EXPECT_LE(bytes, expected + records) << c.name;

@@ -32,11 +32,12 @@ struct Wall {
 struct Process {
   FakeHost &host;
   LoadRecorder loads;
+  EnergyRecorder energies;
   WallFiles files;
   std::vector<PosedMesh> placed;
 
   Process(FakeHost &host_, const Wall &wall) :
-      host(host_), loads(host, wall.settings),
+      host(host_), loads(host, wall.settings), energies(host, wall.settings),
       files(host, wall.settings, 1), placed{{host.rank() == 0 ? &wall.mesh : nullptr, {}}}
   {
   }
@@ -44,7 +45,7 @@ struct Process {
   void step(std::int64_t number)
   {
     loads.add(0, {}, 1, {});
-    files.write_due(number, static_cast<double>(number), placed, &loads);
+    files.write_due(number, static_cast<double>(number), placed, &loads, energies);
   }
   void steps(std::int64_t first, std::int64_t last)
   {

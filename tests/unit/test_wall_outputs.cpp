@@ -37,6 +37,8 @@ std::string keyword_of(OutputPart part)
       return " *motion*";
     case OutputPart::energy:
       return " *energy*";
+    case OutputPart::impacts:
+      return " *impacts*";
     default:
       return "";
   }

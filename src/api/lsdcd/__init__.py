@@ -38,7 +38,7 @@ from . import _arrays, _shapes
 from ._c import DEVICES as DEVICES, ERRORS as ERRORS, Error as Error, Progress as Progress
 from ._c import (_BodyFacts, _BodyOptions, _BodyState, _Broadcast, _Collision, _Contacts, _GridFacts, _GridOptions, _Host,
                  _MeshArrays, _MeshFacts, _Owner, _Query, _Record, _Reduce, _Show, _Spheres, _WallOptions, _WallStep,
-                 _WallContacts, _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _flag, _instance,
+                 _WallContacts, _WallImpacts, _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _flag, _instance,
                  _int, _interrupts_held, _lib, _listened, _numbers, _real, _size, _sized, _text, _tuple)
 from ._shapes import (ShapeContacts as ShapeContacts, ShapeDistances as ShapeDistances, ShapeFacts as ShapeFacts,
                       shape_facts as shape_facts)
@@ -624,6 +624,8 @@ class WallTotals(_Record):
     drive_work: float     # of the mesh on the spheres
     held: float           # elastic
     remainder: float      # contact_work less all that is held or lost
+    impacts: float        # number since the first step, of a wall with `impact_speed`
+    impact_energy: float  # sum of m v^2/2, with the speed along the normal
 
 
 class WallContacts(_Record):
@@ -633,6 +635,15 @@ class WallContacts(_Record):
     force: NDArray[np.float64]     # (n, 3) on the sphere
     point: NDArray[np.float64]     # (n, 3) of the mesh, the closest to the centre, or the deepest in an ellipsoid, when the step began
     overlap: NDArray[np.float64]   # (n,) length, then
+
+
+class WallImpacts(_Record):
+    """The spectrum of the impacts on a mesh since the first step: bins of the energy of an impact, ten of which are a factor of ten,
+    from the first to the last one with an impact."""
+    begins: NDArray[np.float64]    # (n,) energy of an impact, 10^(k/10) with a whole k
+    ends: NDArray[np.float64]      # (n,) likewise
+    impacts: NDArray[np.float64]   # (n,) number
+    energy: NDArray[np.float64]    # (n,) the sum of their m v^2/2
 
 
 class Host(Protocol):
@@ -898,6 +909,18 @@ class Wall(_Owner):
             numbers = [_numbers(values, shape, name) for name, values in arrays.items()]
             places = [None if values is None else values.ctypes.data for values in numbers]
         self._do(_lib.lsdcd_wall_set_nodes, self._handle, self._mesh(mesh), *places, *[None] * (2 - len(places)))
+
+    def impacts(self, mesh: int | str = 0) -> WallImpacts:
+        """The spectrum of the impacts on mesh number `mesh`, from 0, over all processes, of a wall with `impact_speed`. Raises Error
+        for another one, and for a mesh that there is not."""
+        ask = _sized(_WallImpacts)
+        self._do(_lib.lsdcd_wall_get_impacts, self._handle, self._mesh(mesh), ctypes.byref(ask))
+        columns = {name: np.empty(ask.bins) for name in ("begins", "ends", "impacts", "energy")}
+        ask.room = ask.bins
+        for name, column in columns.items():
+            setattr(ask, name, column.ctypes.data)
+        self._do(_lib.lsdcd_wall_get_impacts, self._handle, self._mesh(mesh), ctypes.byref(ask))
+        return WallImpacts(**columns)
 
     def contacts(self) -> WallContacts:
         """Contacts of this process in the last step, of a wall with `each_contact`. Raises Error for another one, and before the first

@@ -46,8 +46,8 @@ _Shapes, _ShapeFacts = _structs["lsdcd_shapes"], _structs["lsdcd_shape_facts"]
     "sub_model", "law", "sub_model_facts", "override", "materials", "type_law"))
 (_Motion, _Servo, _RigidBody, _BodyState, _WallMesh, _WallSpec) = (_structs["lsdcd_" + name] for name in (
     "motion", "servo", "rigid_body", "body_state", "wall_mesh", "wall_spec"))
-(_Host, _WallOptions, _Spheres, _WallStep, _WallTotals, _WallContacts) = (_structs["lsdcd_" + name] for name in (
-    "host", "wall_options", "spheres", "wall_step", "wall_totals", "wall_contacts"))
+(_Host, _WallOptions, _Spheres, _WallStep, _WallTotals, _WallContacts, _WallImpacts) = (_structs["lsdcd_" + name] for name in (
+    "host", "wall_options", "spheres", "wall_step", "wall_totals", "wall_contacts", "wall_impacts"))
 
 
 class Error(ValueError):

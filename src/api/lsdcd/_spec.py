@@ -345,8 +345,8 @@ class WallMesh(_Spec):
     1/time, `surface_centre`: the surface moves along itself while the mesh rests, as that of a belt or a roll. `temperature`: where the law has heat.
     `torque_about`: what the torque of Wall.totals() is about; with `torque_about_moves` that point moves with the mesh.
     `wear_factor`: it wears so many times as fast. `cache`: a file that keeps its grid. `fields`, (name, steps): a .vtp file
-    of stress, contacts and wear of each triangle, written every so many steps, with a * for the step in its name; `stl`
-    likewise: the mesh where it is. `nodes_by_caller`: Wall.set_nodes() moves each vertex, and nothing else moves the mesh;
+    of stress, contacts, wear, energy and impacts of each triangle, written every so many steps, with a * for the step in its name; `stl`
+    likewise: the mesh where it is; `spectrum`: a .csv file of what Wall.impacts() returns. `nodes_by_caller`: Wall.set_nodes() moves each vertex, and nothing else moves the mesh;
     `pressure`, force/area, then pushes them to where normals point by the winding, out of a closed mesh.
 
     Raises TypeError and ValueError for what is no such value; Wall() refuses what makes no sense."""
@@ -360,7 +360,8 @@ class WallMesh(_Spec):
                  wear_factor: float = 1.0, cache: str | os.PathLike[str] | None = None,
                  fields: tuple[str | os.PathLike[str], int] | None = None,
                  stl: tuple[str | os.PathLike[str], int] | None = None, nodes_by_caller: bool = False,
-                 pressure: float = 0.0, body: RigidBody | None = None) -> None:
+                 pressure: float = 0.0, body: RigidBody | None = None,
+                 spectrum: tuple[str | os.PathLike[str], int] | None = None) -> None:
         from . import Mesh    # which is made of this module, too
         matrix = placement.matrix if isinstance(placement, Placement) else _numbers(placement, (3, 4), "placement")
         if matrix is not None and not isinstance(placement, Placement) and not matrix.any():    # which is none in C
@@ -387,7 +388,8 @@ class WallMesh(_Spec):
             torque_about_moves=_flag(torque_about_moves, "torque_about_moves"),
             # C has 0 for once and -1 for never.
             wear_factor={0.0: -1.0, 1.0: 0.0}.get(factor, factor), cache=cache or None,
-            **_file_every(fields, "fields"), **_file_every(stl, "stl"), nodes_by_caller=_flag(nodes_by_caller, "nodes_by_caller"), pressure=pressure,
+            **_file_every(fields, "fields"), **_file_every(stl, "stl"), **_file_every(spectrum, "spectrum"),
+            nodes_by_caller=_flag(nodes_by_caller, "nodes_by_caller"), pressure=pressure,
             body=_address(body, RigidBody, "body"))
         self._name = name
         self._kept = (mesh, law, laws, types, tuple(motions), moved, servo, body)    # what the struct points to
@@ -405,7 +407,8 @@ class WallSpec(_Spec):
     every so many steps wear moves the vertices of the meshes, by a volume of so many times what has worn; None: they stay.
     `periodic_ends`: meshes are meant to end at periodic faces. `brief`: one line in the log. `average`: steps of the means of
     force and torque in Wall.totals(), 0: there are none. `each_contact`: Wall.contacts() will be called. `energy`:
-    what contacts dissipate is booked, in Wall.totals(). `shapes`:
+    what contacts dissipate is booked, in Wall.totals(). `impact_speed`, length/time: faster impacts are recorded, in Wall.totals(),
+    Wall.impacts() and the files of meshes; 0: none. `shapes`:
     grains may be no spheres, so that Wall.step() reads half_axes and the others."""
 
     @_noted
@@ -414,7 +417,7 @@ class WallSpec(_Spec):
                  compute: str = "cpu", wear: tuple[str, float] | tuple[str, float, float] | None = None,
                  periodic_ends: bool = False, brief: bool = False, wear_deform: tuple[int, float] | None = None,
                  average: int = 0, each_contact: bool = False, shapes: bool = False,
-                 energy: bool = False) -> None:
+                 energy: bool = False, impact_speed: float = 0.0) -> None:
         parts = _instances(meshes, WallMesh, "meshes")
         array = (_WallMesh * len(parts))(*(part._struct for part in parts))
         model, coefficient, hardness = _wear(wear)
@@ -430,7 +433,8 @@ class WallSpec(_Spec):
             rmax=rmax, device=_chosen("compute", compute, (*DEVICES, "auto")), wear=model, wear_coefficient=coefficient,
             hardness=hardness, wear_deform_every=every, wear_deform_factor=factor,
             periodic_ends=_flag(periodic_ends, "periodic_ends"), brief=_flag(brief, "brief"), average_every=average,
-            each_contact=_flag(each_contact, "each_contact"), energy=_flag(energy, "energy"), shapes=_flag(shapes, "shapes"))
+            each_contact=_flag(each_contact, "each_contact"), energy=_flag(energy, "energy"), impact_speed=impact_speed,
+            shapes=_flag(shapes, "shapes"))
         self._kept = (law, parts, array)    # what the struct points to
 
     def _names(self) -> list[str]:

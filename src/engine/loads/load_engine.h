@@ -14,6 +14,8 @@ namespace lsdcd {
 // At least as many as a mesh has, without periodic images.
 struct FeatureCounts {
   std::size_t faces, edges, vertices;
+
+  std::size_t all() const { return faces + edges + vertices; }
 };
 
 class LoadEngine {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "backend/backend.h"
+#include "engine/loads/energy_engine.h"
 #include "engine/loads/load_engine.h"
 #include "engine/nodes/node_forces.h"
 
@@ -14,24 +15,22 @@
 
 namespace lsdcd {
 
-constexpr int kLoadSums = LoadEngine::kRow - 1;    // of a feature
-
+template <int kSums>
 struct LoadRange {
-  std::uint64_t count;                  // of contacts
-  std::uint64_t exponent[kLoadSums];    // the largest exponent_field() of each finite number
+  std::uint64_t count;              // of contacts
+  std::uint64_t exponent[kSums];    // the largest exponent_field() of each finite number
 
   LSDCD_FN SumUnit unit(int number) const { return SumUnit({count, exponent[number]}); }
 };
 
-// Contacts, and where the features of their mesh have their sums.
-struct LoadContacts {
-  NodeContacts of;
+// Where the features of a mesh have their sums.
+struct FeaturePlaces {
+  MeshFeaturesView wall;
   std::size_t n_faces, n_edges;
-  Real dt;
 
   LSDCD_FN std::size_t place(FeatureCode feature) const
   {
-    const FeatureCode own = own_feature(of.wall, feature);
+    const FeatureCode own = own_feature(wall, feature);
     const std::size_t i = feature_index(own);
     switch (feature_kind(own)) {
       case FeatureKind::face:
@@ -51,7 +50,22 @@ struct LoadContacts {
     if (place < n_faces + n_edges) return code(FeatureKind::edge, place - n_faces);
     return code(FeatureKind::vertex, place - n_faces - n_edges);
   }
-  LSDCD_FN void numbers(const StepContact &contact, Real (&to)[kLoadSums]) const
+};
+
+// What is summed by feature: contacts. Items are candidates, which have any number of them.
+struct LoadContacts {
+  static constexpr int kSums = LoadEngine::kRow - 1, kMore = 0;
+  FeaturePlaces places;
+  NodeContacts of;
+  Real dt;
+
+  LSDCD_FN std::size_t n() const { return of.n; }
+  LSDCD_FN int count(std::size_t k) const { return of.count(k); }
+  LSDCD_FN const StepContact &at(std::size_t k, int c) const
+  {
+    return of.contacts[of.first_contact[k] + c];
+  }
+  LSDCD_FN void numbers(const StepContact &contact, Real (&to)[kSums]) const
   {
     to[0] = dt * contact.normal;
     to[1] = dt * contact.shear;
@@ -59,31 +73,74 @@ struct LoadContacts {
     to[3] = dt * contact.wear_power;
     for (int d = 0; d < 3; d++) to[4 + d] = dt * contact.force[d];
   }
-  template <class F>
-  LSDCD_FN void for_contacts(std::size_t k, const F &f) const
+  // What else is to be done for a contact, and of a place in a row.
+  LSDCD_FN void note(const StepContact &, std::size_t) const {}
+  LSDCD_FN void take_more(std::size_t, Real *) const {}
+};
+
+// The records of a step of all meshes, which are items of one or none. Of impacts the greatest speed is kept, and their spectrum.
+struct LoadRecords {
+  static constexpr int kSums = EnergyEngine::kRow - 2, kMore = 1;
+  FeaturePlaces places;
+  const EnergyRecord *records;
+  std::size_t room;
+  const int *n_records;
+  std::uint32_t mesh;
+  std::uint64_t *speeds;    // of each place, as bits
+  ImpactBins bins;          // null where no impacts are recorded
+
+  LSDCD_FN std::size_t n() const { return room; }
+  LSDCD_FN int count(std::size_t k) const
   {
-    const int n = of.count(k);
-    for (int c = 0; c < n; c++) f(of.contacts[of.first_contact[k] + c]);
+    return k < static_cast<std::size_t>(*n_records) && records[k].mesh == mesh;
+  }
+  LSDCD_FN const EnergyRecord &at(std::size_t k, int) const { return records[k]; }
+  LSDCD_FN void numbers(const EnergyRecord &record, Real (&to)[kSums]) const
+  {
+    to[0] = record.dissipated;
+    to[1] = record.impact > 0 ? 1 : 0;
+    to[2] = record.impact;
+  }
+  LSDCD_FN void note(const EnergyRecord &record, std::size_t place) const
+  {
+    if (!(record.impact > 0)) return;
+    raise_to(speeds + place, bits_of(record.speed));
+    bins.add(record.impact);
+  }
+  LSDCD_FN void take_more(std::size_t place, Real *to) const
+  {
+    memcpy(to, speeds + place, sizeof *to);
+    speeds[place] = 0;
   }
 };
 
+// Calls f for each contact of item k.
+template <class In, class F>
+LSDCD_FN void for_contacts(const In &in, std::size_t k, const F &f)
+{
+  const int n = in.count(k);
+  for (int c = 0; c < n; c++) f(in.at(k, c));
+}
+
 // Sees the range of a step, and clears that of the next one.
+template <class In>
 struct SeeLoads {
-  LoadContacts in;
+  static constexpr int kSums = In::kSums;
+  In in;
   std::size_t n_threads;
-  LoadRange *range, *next_range;
+  LoadRange<In::kSums> *range, *next_range;
 
   template <unsigned kSize>
   LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t t) const
   {
-    if (mine && t == 0) *next_range = LoadRange();
+    if (mine && t == 0) *next_range = {};
     std::uint32_t contacts = 0;
-    unsigned most[kLoadSums] = {};
-    for_each_of_thread(warp, t, n_threads, mine ? in.of.n : 0, [&](std::size_t k) {
-      in.for_contacts(k, [&](const StepContact &contact) {
-        Real number[kLoadSums];
+    unsigned most[kSums] = {};
+    for_each_of_thread(warp, t, n_threads, mine ? in.n() : 0, [&](std::size_t k) {
+      for_contacts(in, k, [&](const auto &contact) {
+        Real number[kSums];
         in.numbers(contact, number);
-        for (int j = 0; j < kLoadSums; j++) {
+        for (int j = 0; j < kSums; j++) {
           const unsigned e = exponent_field(number[j]);
           if (e > most[j] && e != kNotFinite) most[j] = e;
         }
@@ -92,7 +149,7 @@ struct SeeLoads {
     });
     if (!warp.any(contacts > 0)) return;
     if (contacts > 0) add_to(&range->count, contacts);
-    for (int j = 0; j < kLoadSums; j++) {
+    for (int j = 0; j < kSums; j++) {
       const unsigned of_warp = warp.largest(most[j]);
       if (warp.rank() == 0) raise_to(&range->exponent[j], of_warp);
     }
@@ -100,48 +157,53 @@ struct SeeLoads {
 };
 
 // Adds the contacts of each candidate in units. Sums become no numbers where one of their numbers is not finite.
+template <class In>
 struct AddLoads {
-  LoadContacts in;
-  const LoadRange *range;
+  static constexpr int kSums = In::kSums;
+  In in;
+  const LoadRange<In::kSums> *range;
   std::int64_t *units;    // of each place
   Real *sums;
 
   template <unsigned kSize>
   LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
-    const int n = mine ? in.of.count(k) : 0;
+    const int n = mine ? in.count(k) : 0;
     for (int c = 0; warp.any(c < n); c++) {
-      std::int64_t of_contact[kLoadSums] = {};
+      std::int64_t of_contact[kSums] = {};
       std::size_t place = 0;
       if (c < n) {
-        const StepContact &contact = in.of.contacts[in.of.first_contact[k] + c];
-        place = in.place(contact.feature);
-        Real number[kLoadSums];
+        const auto &contact = in.at(k, c);
+        place = in.places.place(contact.feature);
+        in.note(contact, place);
+        Real number[kSums];
         in.numbers(contact, number);
-        for (int j = 0; j < kLoadSums; j++)
+        for (int j = 0; j < kSums; j++)
           if (exponent_field(number[j]) == kNotFinite)
-            sums[kLoadSums * place + j] = HUGE_VAL - HUGE_VAL;
+            sums[kSums * place + j] = HUGE_VAL - HUGE_VAL;
           else
             of_contact[j] = range->unit(j).units(number[j]);
       }
       if (!warp.sum_by_key(c < n, static_cast<int>(place), of_contact)) continue;
-      for (int j = 0; j < kLoadSums; j++) add_signed(units + kLoadSums * place + j, of_contact[j]);
+      for (int j = 0; j < kSums; j++) add_signed(units + kSums * place + j, of_contact[j]);
     }
   }
 };
 
 // Moves the units of a step to the sums over steps. Of contacts on a feature one finds its units.
+template <class In>
 struct KeepLoads {
-  LoadContacts in;
-  const LoadRange *range;
+  static constexpr int kSums = In::kSums;
+  In in;
+  const LoadRange<In::kSums> *range;
   std::int64_t *units;
   Real *sums;
 
   LSDCD_FN void operator()(std::size_t k) const
   {
-    in.for_contacts(k, [&](const StepContact &contact) {
-      const std::size_t first = kLoadSums * in.place(contact.feature);
-      for (int j = 0; j < kLoadSums; j++) {
+    for_contacts(in, k, [&](const auto &contact) {
+      const std::size_t first = kSums * in.places.place(contact.feature);
+      for (int j = 0; j < kSums; j++) {
         const std::int64_t found = take(units + first + j);
         if (found != 0) sums[first + j] += range->unit(j).value(found);
       }
@@ -159,95 +221,105 @@ struct KeepLoads {
   }
 };
 
+template <int kSums>
 struct FlagLoads {
   const Real *sums;
   char *flags;
-  // The number of contacts is 0 where there was none.
   LSDCD_FN void operator()(std::size_t place) const
   {
-    flags[place] = sums[kLoadSums * place + 2] != 0;
+    bool any = false;
+    for (int j = 0; j < kSums; j++) any |= sums[kSums * place + j] != 0;
+    flags[place] = any;
   }
 };
 
 // Puts the rows of chosen places, and forgets their sums.
+template <class In>
 struct TakeLoads {
-  LoadContacts in;
+  static constexpr int kSums = In::kSums;
+  In in;
   const int *chosen;
   Real *sums, *rows;
 
   LSDCD_FN void operator()(std::size_t m) const
   {
+    constexpr int kRow = 1 + kSums + In::kMore;
     const std::size_t place = chosen[m];
-    Real *const row = rows + LoadEngine::kRow * m;
-    row[0] = in.feature(place);
-    for (int j = 0; j < kLoadSums; j++) {
-      row[1 + j] = sums[kLoadSums * place + j];
-      sums[kLoadSums * place + j] = 0;
+    Real *const row = rows + kRow * m;
+    row[0] = in.places.feature(place);
+    for (int j = 0; j < kSums; j++) {
+      row[1 + j] = sums[kSums * place + j];
+      sums[kSums * place + j] = 0;
     }
+    in.take_more(place, row + 1 + kSums);
   }
 };
 
-// Of one mesh.
-template <class B>
-class LoadSums {
+// Sums by feature of one mesh.
+template <class B, class In>
+class FeatureSums {
   template <class T>
   using Array = typename B::template Array<T>;
+  static constexpr int kSums = In::kSums;
+  using Range = LoadRange<kSums>;
 
  public:
-  void add(B &b, const NodeContacts &of, const FeatureCounts &counts, Real dt)
+  void add(B &b, const In &in, std::size_t n_places)
   {
-    in_ = {of, counts.faces, counts.edges, dt};
-    const std::size_t n_sums = kLoadSums * (counts.faces + counts.edges + counts.vertices);
+    in_ = in;
+    const std::size_t n_sums = kSums * n_places;
     if (sums_.size() != n_sums) {
       sums_ = Array<Real>(n_sums);
       units_ = Array<std::int64_t>(n_sums);
       put_all(b, sums_.data(), n_sums, 0);
       put_all(b, units_.data(), n_sums, 0);
-      ranges_ = from_cpu(b, std::vector<LoadRange>(2));
+      ranges_ = from_cpu(b, std::vector<Range>(2));
     }
-    if (of.n == 0) return;
+    if (in.n() == 0) return;
     now_ = 1 - now_;
-    LoadRange *const range = ranges_.data() + now_;
-    const std::size_t n = threads_for<B>(of.n, kMostThreads);
-    b.for_each_in_warps(n, SeeLoads{in_, n, range, ranges_.data() + 1 - now_});
-    b.for_each_in_warps(of.n, AddLoads{in_, range, units_.data(), sums_.data()});
-    b.for_each(of.n, KeepLoads{in_, range, units_.data(), sums_.data()});
+    Range *const range = ranges_.data() + now_;
+    const std::size_t n = threads_for<B>(in.n(), kMostThreads);
+    b.for_each_in_warps(n, SeeLoads<In>{in_, n, range, ranges_.data() + 1 - now_});
+    b.for_each_in_warps(in.n(), AddLoads<In>{in_, range, units_.data(), sums_.data()});
+    b.for_each(in.n(), KeepLoads<In>{in_, range, units_.data(), sums_.data()});
   }
 
   std::vector<Real> take(B &b)
   {
-    const std::size_t n = sums_.size() / kLoadSums;
+    constexpr int kRow = 1 + kSums + In::kMore;
+    const std::size_t n = sums_.size() / kSums;
     if (n == 0) return {};
     Array<char> flags(n);
     Array<int> chosen(n);
     Array<std::uint32_t> count(1);
-    b.for_each(n, FlagLoads{sums_.data(), flags.data()});
+    b.for_each(n, FlagLoads<kSums>{sums_.data(), flags.data()});
     b.compact(n, nullptr, flags.data(), chosen.data(), count.data());
     const std::size_t n_rows = read_one(b, count.data());
-    Array<Real> rows(LoadEngine::kRow * n_rows);
-    b.for_each(n_rows, TakeLoads{in_, chosen.data(), sums_.data(), rows.data()});
-    return to_cpu(b, rows, LoadEngine::kRow * n_rows);
+    Array<Real> rows(kRow * n_rows);
+    b.for_each(n_rows, TakeLoads<In>{in_, chosen.data(), sums_.data(), rows.data()});
+    return to_cpu(b, rows, kRow * n_rows);
   }
 
   std::size_t bytes() const
   {
     return sums_.size() * sizeof(Real) + units_.size() * sizeof(std::int64_t) +
-           ranges_.size() * sizeof(LoadRange);
+           ranges_.size() * sizeof(Range);
   }
 
  private:
   static constexpr std::size_t kMostThreads = 1 << 17;
 
-  LoadContacts in_ = {};         // of the last step; its contacts are not read after it
+  In in_ = {};                   // of the last step; its contacts are not read after it
   Array<Real> sums_;             // place after place
   Array<std::int64_t> units_;    // the same, 0 between steps
-  Array<LoadRange> ranges_;      // two, of which one is clear
+  Array<Range> ranges_;          // two, of which one is clear
   int now_ = 0;
 };
 
 template <class B>
 class EngineOn;
 
+// Sums by feature of all meshes of an engine, made when they are first added to.
 template <class B>
 class LoadsOn : public LoadEngine {
  public:
@@ -256,8 +328,9 @@ class LoadsOn : public LoadEngine {
 
   void add(int mesh, const FeatureCounts &counts, Real dt) override
   {
-    if (sums_.empty()) sums_ = std::vector<LoadSums<B>>(e_.settings_.meshes);
-    sums_.at(mesh).add(e_.b_, e_.contacts_on(mesh), counts, dt);
+    if (sums_.empty()) sums_ = std::vector<FeatureSums<B, LoadContacts>>(e_.settings_.meshes);
+    const NodeContacts of = e_.contacts_on(mesh);
+    sums_.at(mesh).add(e_.b_, {{of.wall, counts.faces, counts.edges}, of, dt}, counts.all());
   }
   std::vector<Real> take(int mesh) override
   {
@@ -266,13 +339,75 @@ class LoadsOn : public LoadEngine {
   std::size_t bytes() const
   {
     std::size_t bytes = 0;
-    for (const LoadSums<B> &sums : sums_) bytes += sums.bytes();
+    for (const auto &sums : sums_) bytes += sums.bytes();
     return bytes;
   }
 
  private:
   EngineOn<B> &e_;
-  std::vector<LoadSums<B>> sums_;    // of each mesh
+  std::vector<FeatureSums<B, LoadContacts>> sums_;    // of each mesh
+};
+
+template <class B>
+class EnergiesOn : public EnergyEngine {
+  template <class T>
+  using Array = typename B::template Array<T>;
+
+  struct OfMesh {
+    FeatureSums<B, LoadRecords> sums;
+    Array<std::uint64_t> speeds;    // of each place
+    Array<ImpactBin> bins;
+  };
+
+ public:
+  // The engine must outlive it.
+  explicit EnergiesOn(EngineOn<B> &engine) : e_(engine) {}
+
+  void add(int mesh, const FeatureCounts &counts) override
+  {
+    if (meshes_.empty()) {
+      meshes_ = std::vector<OfMesh>(e_.settings_.meshes);
+      begins_ = from_cpu(e_.b_, begins_of_bins());
+    }
+    OfMesh &to = meshes_.at(mesh);
+    if (to.speeds.size() != counts.all()) {
+      to.speeds = Array<std::uint64_t>(counts.all());
+      put_all(e_.b_, to.speeds.data(), counts.all(), 0);
+      to.bins = Array<ImpactBin>(kImpactBins);
+      put_all(e_.b_, to.bins.data(), kImpactBins, ImpactBin());
+    }
+    LoadRecords records = e_.records_on(mesh);
+    records.places.n_faces = counts.faces;
+    records.places.n_edges = counts.edges;
+    records.speeds = to.speeds.data();
+    records.bins = {to.bins.data(), begins_.data()};
+    to.sums.add(e_.b_, records, counts.all());
+  }
+  std::vector<Real> take(int mesh) override
+  {
+    return meshes_.empty() ? std::vector<Real>() : meshes_.at(mesh).sums.take(e_.b_);
+  }
+  std::vector<ImpactBin> take_bins(int mesh) override
+  {
+    if (meshes_.empty()) return {};
+    Array<ImpactBin> &bins = meshes_.at(mesh).bins;
+    std::vector<ImpactBin> taken = to_cpu(e_.b_, bins, bins.size());
+    put_all(e_.b_, bins.data(), bins.size(), ImpactBin());
+    return taken;
+  }
+  std::size_t bytes() const
+  {
+    std::size_t bytes = begins_.size() * sizeof(Real);
+    for (const OfMesh &m : meshes_)
+      bytes += m.sums.bytes() + m.speeds.size() * sizeof(std::uint64_t) +
+               m.bins.size() * sizeof(ImpactBin);
+    return bytes;
+  }
+
+ private:
+  EngineOn<B> &e_;
+  std::vector<OfMesh> meshes_;
+  Array<Real> begins_;    // of bins
 };
 
 }    // namespace lsdcd

@@ -134,7 +134,7 @@ class EngineOn : public WallEngine {
     if (!gives_back_at_submit()) mirror_.start_back(b_);
     mirror_.collect(b_);
     state_ = StepState::none;
-    results_.fetch(b_, springs_.contacts(step_.update_history || law_.traits.energy));
+    results_.fetch(b_, springs_.contacts(step_.update_history || law_.traits.sets_up()));
   }
 
   StepResults &results() override { return results_; }
@@ -161,12 +161,13 @@ class EngineOn : public WallEngine {
     for (const auto &nodes : nodes_) nodes->set_engine(*this);
   }
   LoadEngine *loads() override { return B::kOnCpu ? nullptr : &loads_; }
+  EnergyEngine *energies() override { return B::kOnCpu ? nullptr : &energies_; }
   std::size_t bytes() const override
   {
-    std::size_t bytes = broad_phase_.bytes() + mirror_.bytes() + springs_.bytes() +
-                        results_.bytes() + next_results_.bytes() +
-                        overflow_.size() * sizeof(OverflowScratch) + work_lists_.bytes() +
-                        loads_.bytes() + b_.scratch_bytes() + beside_.scratch_bytes();
+    std::size_t bytes =
+        broad_phase_.bytes() + mirror_.bytes() + springs_.bytes() + results_.bytes() +
+        next_results_.bytes() + overflow_.size() * sizeof(OverflowScratch) + work_lists_.bytes() +
+        loads_.bytes() + energies_.bytes() + b_.scratch_bytes() + beside_.scratch_bytes();
     for (const auto &nodes : nodes_) bytes += nodes->bytes();
     return bytes;
   }
@@ -190,13 +191,21 @@ class EngineOn : public WallEngine {
       springs_.forget_others(broad_phase_.slots().n_spheres(), broad_phase_.slots().meshes_of());
   }
 
-  // The contacts of the last step. Records of nodes that move have no images.
-  NodeContacts contacts_on(int mesh) const
+  // Returns the features of a mesh with their images. Records of nodes that move have none.
+  MeshFeaturesView features(int mesh) const
   {
     const bool has_nodes = !nodes_.empty() && nodes_[mesh]->field().velocity;
-    const MeshFeaturesView wall =
-        has_nodes ? MeshFeaturesView() : broad_phase_.mesh(mesh).grid.view.wall;
-    return results_.node_contacts(springs_.contacts(step_.update_history), mesh, wall, nullptr);
+    return has_nodes ? MeshFeaturesView() : broad_phase_.mesh(mesh).grid.view.wall;
+  }
+  // Return the contacts of the last step, and its records of energy without the sums of a mesh.
+  NodeContacts contacts_on(int mesh) const
+  {
+    return results_.node_contacts(springs_.contacts(step_.update_history || law_.traits.sets_up()),
+                                  mesh, features(mesh), nullptr);
+  }
+  LoadRecords records_on(int mesh) const
+  {
+    return results_.load_records(mesh, {features(mesh), 0, 0});
   }
 
   void unlock_scratches()
@@ -285,6 +294,8 @@ class EngineOn : public WallEngine {
     job.step = static_cast<std::uint64_t>(std::max<std::int64_t>(0, step_.number - first_step_)) &
                DeepestOverlap::kRest;
     job.pool = springs_.next(results.first_contact());
+    if (law_.traits.records)
+      job.records = results.begin_records(springs_.places(), settings_.impact_speed);
     job.overflow = overflow_.data();
     // A step clears the counter of the pool that it does not write. After one that moves no springs, as in setup, the same pool
     // is written again.
@@ -294,8 +305,8 @@ class EngineOn : public WallEngine {
       run_slots(job);
     else
       run_law(job, n, law_of(0, 0));
-    // Where contacts keep their forces a setup replaces these, and leaves springs as they are.
-    if (step_.update_history || law_.traits.energy) springs_.swap();
+    // Where a setup stores what contacts keep, it leaves springs as they are.
+    if (step_.update_history || law_.traits.sets_up()) springs_.swap();
     if (step_.totals && !B::kOnCpu) results.start_sums(b_);
   }
 
@@ -379,7 +390,9 @@ class EngineOn : public WallEngine {
   friend class MovingNodes<B>;
   std::vector<std::unique_ptr<MovingNodes<B>>> nodes_;    // of each mesh; none where none move
   friend class LoadsOn<B>;
+  friend class EnergiesOn<B>;
   LoadsOn<B> loads_{*this};
+  EnergiesOn<B> energies_{*this};
   std::vector<std::optional<MeshWork>>
       works_of_meshes_;      // none: something of it may have changed
   Array<MeshWork> works_;    // the same where kernels read them

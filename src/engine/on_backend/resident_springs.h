@@ -144,6 +144,9 @@ class ResidentSprings : public Springs {
             pool.contacts.data()};
   }
 
+  // Returns the places of both pools: at least as many as there are contacts of the last step and of this one.
+  std::size_t places() const { return pool_[0].size + pool_[1].size; }
+
   void swap()
   {
     now_ = 1 - now_;

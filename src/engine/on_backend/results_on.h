@@ -6,6 +6,7 @@
 #pragma once
 
 #include "engine/broad_phase/candidate_slots.h"
+#include "engine/loads/load_sums.h"
 #include "engine/nodes/node_forces.h"
 #include "engine/results/energy_sums.h"
 #include "engine/results/total_sums.h"
@@ -40,6 +41,7 @@ class ResultsOn : public StepResults {
     n_ = n;
     totals_known_ = false;
     n_parts_ = 0;
+    has_records_ = false;
     n_contacts_.reserve(n);
     if (traits.heat) heat_.reserve(n);
     if (traits.energy) {
@@ -56,6 +58,31 @@ class ResultsOn : public StepResults {
     if (numbers_.size() < numbers) numbers_ = Array<Real>(numbers);
     columns_ =
         ResultColumns::of(numbers_.data(), room, step.per_sphere, adds_later, n_contacts_.data());
+  }
+
+  // Returns where kernels of the step put at most so many records.
+  EnergyRecordList begin_records(std::size_t most, Real impact_speed)
+  {
+    records_.reserve(most);
+    n_records_.reserve(1);
+    put_one(*b_, n_records_.data(), 0);
+    has_records_ = true;
+    return {records_.data(), n_records_.data(), impact_speed};
+  }
+  EnergyRecords energy_records() const override
+  {
+    if (!B::kOnCpu || !has_records_) return {};
+    return {records_.data(), *n_records_.data()};
+  }
+  LoadRecords load_records(int mesh, const FeaturePlaces &places) const
+  {
+    LoadRecords of = {};
+    of.places = places;
+    of.records = records_.data();
+    of.room = has_records_ ? records_.size() : 0;
+    of.n_records = n_records_.data();
+    of.mesh = static_cast<std::uint32_t>(mesh);
+    return of;
   }
 
   void put_into(StepJob &job)
@@ -145,6 +172,7 @@ class ResultsOn : public StepResults {
   std::size_t bytes() const
   {
     return energy_.size() * sizeof(EnergyRows) + is_booked_.size() +
+           records_.size() * sizeof(EnergyRecord) +
            (numbers_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
            (n_contacts_.size() + first_contact_.size() + stored_candidates_.size()) * sizeof(int) +
            touching_.capacity() * sizeof(TouchingSphere) +
@@ -319,6 +347,9 @@ class ResultsOn : public StepResults {
   Array<char> is_booked_;
   std::vector<EnergyRows> energy_of_mesh_;
   EnergySums<B> energy_sums_;
+  Array<EnergyRecord> records_;
+  Array<int> n_records_;
+  bool has_records_ = false;    // of the last step
   Array<int> n_contacts_, first_contact_, stored_candidates_;
 
   WallTotals totals_;

@@ -83,6 +83,26 @@ struct EnergyRows {
   LSDCD_FN Real operator[](EnergyRow row) const { return of[static_cast<int>(row)]; }
 };
 
+// Returns what all causes dissipate.
+LSDCD_FN Real dissipated(const EnergyRows &rows)
+{
+  return rows[EnergyRow::damping] + rows[EnergyRow::slider] + rows[EnergyRow::rolling] +
+         rows[EnergyRow::twisting] + rows[EnergyRow::adhesion];
+}
+
+// What becomes of energy where a contact of this step, or of the last one, is.
+struct EnergyRecord {
+  FeatureCode feature;
+  std::uint32_t mesh;    // of the wall's
+  Real dissipated;       // energy; 0 where no energy is booked
+  // Of a contact that begins by an impact: its energy m v^2/2, and the speed v along the normal. Else 0.
+  Real impact, speed;
+};
+struct EnergyRecords {
+  const EnergyRecord *at = nullptr;
+  int n = 0;
+};
+
 // Counts of the steps since the host last read them.
 struct StepDiagnostics {
   Real deepest = 0;                    // largest overlap / radius
@@ -113,6 +133,8 @@ class StepResults {
   virtual WallTotals mesh_totals(int mesh) = 0;
   // Returns the rows of one mesh, where the law keeps_forces. A setup has `held` and `seen` alone.
   virtual EnergyRows energy(int mesh) = 0;
+  // Returns what EngineSettings::records_energy() asks for, of an engine on a CPU.
+  virtual EnergyRecords energy_records() const = 0;
   // Returns the spheres with a contact, after a step with per_sphere.
   const std::vector<TouchingSphere> &touching() const { return touching_; }
   int n_touching() const { return static_cast<int>(touching_.size()); }

@@ -41,13 +41,19 @@ template <class B>
 CompiledLaw<B> plain_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
 CompiledLaw<B> energy_law(const ContactLaw &law, const WallEffects &effects);
+template <class B>
+CompiledLaw<B> energy_records_law(const ContactLaw &law, const WallEffects &effects);
+template <class B>
+CompiledLaw<B> impacts_law(const ContactLaw &law, const WallEffects &effects);
 
 // One law of the settings.
 template <class B>
 CompiledLaw<B> law_for(const EngineSettings &settings, const ContactLaw &law)
 {
   const WallEffects effects = wall_effects(settings);
-  if (law.keeps_forces) return energy_law<B>(law, effects);
+  if (law.keeps_forces)
+    return effects.records ? energy_records_law<B>(law, effects) : energy_law<B>(law, effects);
+  if (effects.records) return impacts_law<B>(law, effects);
   if (law.is_extended())
     return law.is_classic() ? added_law<B>(law, effects) : granular_added_law<B>(law, effects);
   if (!law.is_classic()) return granular_law<B>(law, effects);

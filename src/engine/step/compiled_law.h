@@ -66,14 +66,17 @@ struct WallEffects {
   // Takes spheres to the frame of a mesh, which moves or is one of several, or whose surface moves.
   bool posed;
   bool contacts, nodes;    // keeps contacts; nodes of a mesh move
+  bool records = false;    // EnergyRecord, of impacts and of what is dissipated
 };
 
-// kEnergy: books what contacts do with energy, and keeps KeptForces of each.
+// kEnergy: books what contacts do with energy, and keeps KeptForces of each. kRecords: puts an EnergyRecord where one is due.
 template <class Law, bool kPosed_, bool kKeepsContacts_, bool kNodes_ = false,
-          bool kEnergy_ = false>
+          bool kEnergy_ = false, bool kRecords_ = false>
 struct OnWall : Law {
   static constexpr bool kPosed = kPosed_, kKeepsContacts = kKeepsContacts_, kNodes = kNodes_,
-                        kEnergy = kEnergy_;
+                        kEnergy = kEnergy_, kRecords = kRecords_;
+  // A setup stores what contacts keep; it does not move their springs.
+  static constexpr bool kSetsUp = kEnergy || kRecords;
 };
 
 // Returns how many numbers of a contact engines store beside its shear displacement: those of the law, then KeptForces.
@@ -86,8 +89,8 @@ LSDCD_FN int n_stored(const Law &law)
 // The kernels that a law has, by their effects. plain: {none}. moving_or_both: {moving}, {moving + contacts}.
 // plain_or_both: {none}, {moving + contacts}. Where a wall has contacts alone it takes {moving + contacts}. Beside each
 // of these is {moving + contacts + nodes}, so that walls whose nodes do not move have no instruction for them.
-// energy: {moving + contacts + energy} alone.
-enum class WallKernels { plain, moving_or_both, plain_or_both, energy };
+// energy: {moving + contacts + energy}; energy_records: that with records; impacts: {moving + contacts + records}.
+enum class WallKernels { plain, moving_or_both, plain_or_both, energy, energy_records, impacts };
 
 // Calls make(law) with the law that has the effects.
 template <WallKernels kernels, class Law, class Make>
@@ -96,6 +99,10 @@ auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
   if constexpr (kernels == WallKernels::plain) return make(OnWall<Law, false, false>{law});
   if constexpr (kernels == WallKernels::energy)
     return make(OnWall<Law, true, true, false, true>{law});
+  if constexpr (kernels == WallKernels::energy_records)
+    return make(OnWall<Law, true, true, false, true, true>{law});
+  if constexpr (kernels == WallKernels::impacts)
+    return make(OnWall<Law, true, true, false, false, true>{law});
   if constexpr (kernels == WallKernels::moving_or_both)
     if (!effects.contacts) return make(OnWall<Law, true, false>{law});
   if constexpr (kernels == WallKernels::plain_or_both)
@@ -109,9 +116,12 @@ struct StepJob;
 
 // The numbers that engines store and move for a law.
 struct LawTraits {
-  bool history, heat, contacts, energy;
+  bool history, heat, contacts, energy, records;
   // n_vectors, at most kMostVectors: of the extra numbers those that come first, three each
   int n_extra, n_vectors;
+
+  // Does a setup store what contacts keep?
+  bool sets_up() const { return energy || records; }
 };
 
 template <class Law>
@@ -123,7 +133,8 @@ LawTraits traits_of(const Law &law)
   int n_vectors = 0;
   if constexpr (Law::kVectors > 0)
     for (int k = 0; k < Law::kVectors; k++) n_vectors += law.stores(k);
-  return {Law::kHistory, heat, Law::kKeepsContacts, Law::kEnergy, n_stored(law), n_vectors};
+  return {Law::kHistory, heat,     Law::kKeepsContacts, Law::kEnergy, Law::kRecords,
+          n_stored(law), n_vectors};
 }
 
 // A law compiled for one backend; run() does the step of n candidates, see run_compiled_law().
@@ -137,8 +148,8 @@ struct CompiledLaw {
 // Returns the wall's effects that the settings ask for.
 inline WallEffects wall_effects(const EngineSettings &s)
 {
-  return {s.surface.moves() || s.moves || uses_slots(s), s.contacts || s.bodies || s.nodes,
-          s.nodes};
+  return {s.surface.moves() || s.moves || uses_slots(s), s.contacts || s.bodies || s.nodes, s.nodes,
+          s.records_energy()};
 }
 
 }    // namespace lsdcd

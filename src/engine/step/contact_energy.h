@@ -198,7 +198,8 @@ struct EnergyBook {
   // Books the second half of the last step's contacts with this mesh, and the rest of those that have ended.
   template <class Springs>
   LSDCD_FN void close(const Law &law, const ForceSettings &settings,
-                      const SphereStateWith<Springs> &s, const EnergyMarks &marks)
+                      const SphereStateWith<Springs> &s, const EnergyMarks &marks,
+                      [[maybe_unused]] const EnergyRecordList &records)
   {
     const Real dt = settings.dt;
     for (int k = 0; k < s.n_springs; k++) {
@@ -206,6 +207,8 @@ struct EnergyBook {
       const KeptForces old = kept(law, s, k);
       rows[EnergyRow::seen] += old.held;
       if (!settings.update) continue;
+      [[maybe_unused]] Real lost_before = 0;
+      if constexpr (Law::kRecords) lost_before = dissipated(rows);
       const Vec3 n = s.springs[k].normal;
       RelativeMotion m = relative_motion(settings, s, n, old.distance);
       if (settings.pose.placed) m = m.before(settings.wall_angular, dt);
@@ -217,6 +220,8 @@ struct EnergyBook {
         rows[EnergyRow::turned_springs] += energy_left(old, slip, rolling, twisting, dt);
       else
         book_springs_at_end(old, n, slip, rolling, twisting, dt, rows);
+      if constexpr (Law::kRecords)
+        records.put({s.springs[k].feature, settings.mesh, dissipated(rows) - lost_before, 0, 0});
     }
   }
 

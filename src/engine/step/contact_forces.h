@@ -4,6 +4,7 @@
 // Force and torque on one sphere by its contacts.
 #pragma once
 
+#include "backend/atomic.h"
 #include "contact/node_field.h"
 #include "engine/results/result_columns.h"
 #include "engine/results/step_results.h"
@@ -59,13 +60,26 @@ struct EnergyMarks {
 template <class Law>
 struct EnergyBook;
 
+// Where kernels put what becomes of energy, in any order.
+struct EnergyRecordList {
+  EnergyRecord *at;
+  int *n;
+  Real impact_speed;    // impacts that are faster are recorded; 0: none are
+
+  LSDCD_FN void put(const EnergyRecord &record) const
+  {
+    if (record.dissipated != 0 || record.impact > 0) at[fetch_add(n, 1)] = record;
+  }
+};
+
 template <class Law>
 struct BookingSink : SphereSink {
   EnergyBook<Law> *book;
   EnergyMarks *marks;
+  EnergyRecordList records;
 };
 template <class Law>
-using SinkOf = std::conditional_t<Law::kEnergy, BookingSink<Law>, SphereSink>;
+using SinkOf = std::conditional_t<Law::kSetsUp, BookingSink<Law>, SphereSink>;
 
 // A contact as it is booked: arguments and result of the law, what the force is made of, and its weight.
 template <class Law>
@@ -107,7 +121,8 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.mesh = static_cast<std::uint32_t>(mesh);
   s.dt = step.dt;
   s.update = step.update_history;
-  s.stores = s.update || engine.laws.laws.front().keeps_forces;
+  const ContactLaw &law = engine.laws.laws.front();
+  s.stores = s.update || law.keeps_forces || law.keeps_touch;
   s.search = {engine.corner, engine.side};
   s.with_point = step.per_sphere;
   s.wall_temperature = step.mesh_temperature ? step.mesh_temperature[mesh] : step.wall_temperature;
@@ -192,6 +207,17 @@ LSDCD_FN void store_kept(const KeptForces &kept, const Law &law, Real *to)
   memcpy(to + n_extra(law), &kept, sizeof kept);
 }
 
+// Puts the energy and the speed of an impact, by which a contact begins that no other hands a spring. A sphere that was put
+// there, or had its contact hidden behind others, has come farther than in this step.
+LSDCD_FN void add_impact(const Contact &c, Real least_speed, EnergyRecord &record)
+{
+  constexpr Real kSteps = 1.5;    // speeds change on the way, and are those of half of it
+  const Real speed = -c.v_normal;
+  if (!(least_speed > 0 && speed > least_speed && c.overlap <= kSteps * c.dt * speed)) return;
+  record.impact = 0.5 * c.mass * speed * speed;
+  record.speed = speed;
+}
+
 // Evaluates the law for each contact and adds its force, torque and energy to `out`. `weights` null: all are 1.
 template <class Law, class Springs, class Sink>
 LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
@@ -257,12 +283,21 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     auto memory = memory_from_last_step(law, settings, set, i, s, in);
     [[maybe_unused]] const auto begun = memory;
     const auto f = law.evaluate(c, memory);
-    if constexpr (Law::kEnergy) {
+    if constexpr (Law::kSetsUp)
       if (!settings.update) memory = begun;
+    [[maybe_unused]] Real lost_before = 0;
+    if constexpr (Law::kEnergy) {
+      if constexpr (Law::kRecords) lost_before = dissipated(sink.book->rows);
       const BookedContact<Law> booked = {
           c, f, law.parts(c, begun, memory, f), weight, set.distance[i], arm};
       store_kept(sink.book->add(law, settings, s, booked, in, *sink.marks), law,
                  sink.extra + out.n_contacts * n_stored(law));
+    }
+    if constexpr (Law::kRecords) {
+      EnergyRecord record = {set.feature[i], mesh, 0, 0, 0};
+      if constexpr (Law::kEnergy) record.dissipated = dissipated(sink.book->rows) - lost_before;
+      if (settings.update && in.from < 0) add_impact(c, sink.records.impact_speed, record);
+      sink.records.put(record);
     }
     if constexpr (Law::kHistory) {
       const int at = out.n_contacts;

@@ -150,7 +150,7 @@ LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const Energy
     add_motion(mesh.law, job, mesh.settings.pose, sphere.i, state);
     if (!job.is_booked[k]) job.energy[k] = EnergyRows();
     EnergyBook<Law> book = {job.energy[k]};
-    book.close(mesh.law, mesh.settings, state, marks);
+    book.close(mesh.law, mesh.settings, state, marks, job.records);
     job.energy[k] = book.rows;
     job.is_booked[k] = 1;
   }
@@ -202,6 +202,7 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
       to_mesh.book = &book;
       to_mesh.marks = &marks;
     }
+    if constexpr (Law::kRecords) to_mesh.records = job.records;
     if constexpr (Law::kHistory) to_mesh.springs += n_done;
     if constexpr (Law::kExtra > 0) to_mesh.extra += n_done * n_stored(law);
     if constexpr (Law::kKeepsContacts) to_mesh.contacts += n_done;

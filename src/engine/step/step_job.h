@@ -102,6 +102,7 @@ struct StepJob {
   ContactPool pool = {};
   OverflowScratch *overflow = nullptr;
   WorkLists work_lists = {};
+  EnergyRecordList records = {};    // where the law has them
 };
 
 LSDCD_FN std::size_t sphere_of(const StepJob &job, std::size_t k)

@@ -4,6 +4,7 @@
 // One mesh of a wall: its spec and grid, and where it is.
 #pragma once
 
+#include "engine/loads/load_engine.h"
 #include "wall/move/mover.h"
 #include "wall/surface/mesh_surface.h"
 
@@ -36,6 +37,11 @@ struct MeshPart {
 
   MeshNodes *nodes() const { return surface->nodes(); }    // null: they do not move
   const Servo &servo() const { return spec.motion.servo(); }
+  FeatureCounts feature_counts() const
+  {
+    const MeshReport &has = grid.report();
+    return {has.facets, has.edges, has.vertices};
+  }
   bool moves() const { return spec.has_nodes || spec.motion.any(); }    // or was moved
   // Returns whether it stood still in the last step, and does until it is given something that moves it.
   bool is_at_rest() const

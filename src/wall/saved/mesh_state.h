@@ -100,6 +100,8 @@ struct MeshState {
   std::vector<MeanLoadState> mean;     // one, or none where there are no means
   std::vector<StepLoad> last;          // one; none: data without it
   std::vector<BookedEnergy> energy;    // one, or none where energy is not booked
+  std::vector<Real> energy_places;     // of all processes, as of EnergyPlaces::packed()
+  std::vector<Real> impacts;    // as of ImpactSpectrum::packed(); none where they are not recorded
 };
 
 }    // namespace lsdcd

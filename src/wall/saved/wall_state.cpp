@@ -3,6 +3,8 @@
 
 #include "wall/saved/wall_state.h"
 
+#include "output/energy_places.h"
+#include "output/impact_spectrum.h"
 #include "output/mesh_loads.h"
 
 #include <algorithm>
@@ -203,6 +205,8 @@ State WallState::blocks() const
     if (!m.mean.empty()) mesh.add("mean", 1, m.mean);
     if (!m.last.empty()) mesh.add("last step", 1, m.last);
     if (!m.energy.empty()) mesh.add("energy", 1, m.energy);
+    if (!m.energy_places.empty()) mesh.add("energy of triangles", 1, m.energy_places);
+    if (!m.impacts.empty()) mesh.add("impacts", 1, m.impacts);
     all.add("mesh", 1, mesh);
   }
   return all;
@@ -242,6 +246,8 @@ WallState WallState::from(const State &state)
     mesh.find("mean", 1, m.mean);
     mesh.find("last step", 1, m.last);
     mesh.find("energy", 1, m.energy);
+    mesh.find("energy of triangles", 1, m.energy_places);
+    mesh.find("impacts", 1, m.impacts);
     const std::size_t n = static_cast<std::size_t>(std::max<std::int64_t>(0, m.mesh.vertices));
     const auto is_of_vertices = [n](const std::vector<Real> &numbers) {
       return numbers.empty() || numbers.size() == 3 * n;
@@ -257,6 +263,10 @@ WallState WallState::from(const State &state)
       throw StateError("the worn shape in the data of the wall is not that of the mesh's vertices");
     if (m.loads.rows.size() % MeshLoads::kPackedLoad != 0)
       throw StateError("the loads in the data of the wall are no whole rows");
+    if (m.energy_places.size() % EnergyPlaces::kPacked != 0)
+      throw StateError("the energies in the data of the wall are no whole rows");
+    if (!m.impacts.empty() && m.impacts.size() != ImpactSpectrum::kPacked)
+      throw StateError("the impacts in the data of the wall are no spectrum");
     const std::string unread = mesh.unread();
     if (!unread.empty()) all.unread += (all.unread.empty() ? "" : ", ") + unread;
   }

@@ -27,6 +27,7 @@ struct MemorySetting {};     // in MiB; in bytes, 0: as it is without
 struct StepsSetting {        // a whole number; 0 is `none`
   const char *none;
 };
+struct SpeedSetting {};     // a number above 0; 0 in a struct: off
 struct FactorSetting {};    // a number; 0 is once and -1 never
 
 template <std::size_t n>
@@ -69,6 +70,10 @@ constexpr const char *kLogWords[] = {"full", "brief"};
   SETTING(energy, energy, FlagSetting{}, compared, "energy", "", "", "", "off",                    \
           "what contacts dissipate, by cause, and books of energy that close, as more numbers of " \
           "the vector")                                                                            \
+  SETTING(impact_speed, impact_speed, SpeedSetting{}, compared, "impacts", "V", "velocity", "> 0", \
+          "off",                                                                                   \
+          "number and energy of impacts faster than V, as more numbers of the vector, in "         \
+          "mesh_fields and in impact_spectrum")                                                    \
   SETTING(periodic_ends, periodic, FlagSetting{}, free, "periodic", "", "", "", "off",             \
           "no warning if the mesh reaches past periodic faces, or does not continue there; it "    \
           "acts through them in any case")                                                         \

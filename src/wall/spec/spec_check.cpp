@@ -32,8 +32,10 @@ constexpr Member kMeshes = {"n_meshes", "mesh"}, kMesh = {"mesh", "mesh"}, kLaw 
                  kWearFactor = {"wear_factor", "wear_factor"},
                  kWearDeform = {"wear_deform_every", "wear"}, kCache = {"cache", "cache"},
                  kFields = {"fields", "mesh_fields"}, kStl = {"stl", "mesh_stl"},
-                 kNearest = {"nearest", "nearest"}, kSide = {"side", "side"},
-                 kDevice = {"device", "device"}, kEnergy = {"energy", "energy"},
+                 kSpectrum = {"spectrum", "impact_spectrum"},
+                 kImpacts = {"impact_speed", "impacts"}, kNearest = {"nearest", "nearest"},
+                 kSide = {"side", "side"}, kDevice = {"device", "device"},
+                 kEnergy = {"energy", "energy"},
                  kTorquePoint = {"torque_about_moves", "torque_about"};
 
 // What of a mesh does not go with the rest of its wall. The text is about the member, and says what to do.
@@ -108,6 +110,17 @@ const MeshRule kMeshRules[] = {
        return w.energy && m.body.present && m.body.coat.present;
      },
      "contacts of a coat are not booked: leave energy or the coat out"},
+    {kSpectrum,
+     [](const WallSpec &w, const MeshSpec &m) {
+       return m.spectrum.every > 0 && !(w.impact_speed > 0);
+     },
+     "no impacts are recorded, of which it would be: give the wall the least speed of an impact, "
+     "or leave "
+     "it out"},
+    {kImpacts,
+     [](const WallSpec &w, const MeshSpec &m) { return w.impact_speed > 0 && m.has_nodes; },
+     "impacts on nodes that move are not recorded: leave it out, or put the mesh into a wall of "
+     "its own"},
     {kBody, [](const WallSpec &w, const MeshSpec &m) { return m.body.present && w.recedes(m); },
      "wear moves this mesh, and the mass and centre of a body are those of its shape: leave one of "
      "them out, or give the mesh a wear factor by which it does not wear"},
@@ -180,6 +193,8 @@ class SpecCheck {
     const std::string why = why_not_for_shapes(wall_.law());
     if (!why.empty()) refuse(kLaw, why);
     if (wall_.energy) refuse(kEnergy, "contacts of ellipsoids are not booked: leave it out");
+    if (wall_.impact_speed > 0)
+      refuse(kImpacts, "impacts of ellipsoids are not recorded: leave it out");
     if (wall_.side != Side::both)
       refuse(kSide, "ellipsoids have a wall with both sides alone: leave it out");
     if (wall_.device == Device::cuda)
@@ -242,6 +257,7 @@ class SpecCheck {
       const std::string &name, &of_other;
     } files[] = {{kCache, one.cache_file, other.cache_file},
                  {kFields, one.fields.name, other.fields.name},
+                 {kSpectrum, one.spectrum.name, other.spectrum.name},
                  {kStl, one.stl.name, other.stl.name}};
     for (const auto &file : files)
       if (!file.name.empty() && file.name == file.of_other)

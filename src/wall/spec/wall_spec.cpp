@@ -73,6 +73,12 @@ bool WallSpec::has_loads() const
                      [this](const MeshSpec &mesh) { return has_loads(mesh); });
 }
 
+bool WallSpec::has_energy_places() const
+{
+  return energy && std::any_of(meshes.begin(), meshes.end(),
+                               [this](const MeshSpec &mesh) { return has_energy_places(mesh); });
+}
+
 void leave_out_zero_cohesion(WallSpec &wall)
 {
   bool any = false;

@@ -69,6 +69,7 @@ struct MeshSpec {
   Vec3 torque_about = {0, 0, 0};    // length; a point of the box, or of the mesh
   FileEvery stl;                    // of the mesh where it is
   FileEvery fields;                 // of numbers per triangle
+  FileEvery spectrum;               // of the spectrum of impacts
   std::string cache_file;           // of its grid; empty: none
 
   bool surface_varies() const;
@@ -101,9 +102,11 @@ struct WallSpec {
   bool contacts = false;        // for_contact_rows() will be called
   bool each_contact = false;    // for_contacts() will be called
   bool energy = false;          // what contacts do with energy is booked (EnergyBooks)
-  bool shapes = false;          // grains may be no spheres (Spheres::shapes)
-  bool periodic = false;        // meshes are meant to reach past periodic faces
-  bool brief = false;           // one line in the log
+  Real impact_speed =
+      0;    // length/time; impacts that are faster are recorded (EnergyRecorder); 0: none
+  bool shapes = false;      // grains may be no spheres (Spheres::shapes)
+  bool periodic = false;    // meshes are meant to reach past periodic faces
+  bool brief = false;       // one line in the log
 
   // Returns the sub-models, which all laws have.
   const ContactLaw &law() const { return laws.front().law; }
@@ -117,6 +120,14 @@ struct WallSpec {
   }
   bool has_loads(const MeshSpec &mesh) const { return wears() || mesh.fields.every > 0; }
   bool has_loads() const;
+  // Is there a place for what becomes of energy at each triangle of the mesh?
+  bool has_energy_places(const MeshSpec &mesh) const
+  {
+    return mesh.fields.every > 0 && (energy || impact_speed > 0);
+  }
+  // Is what contacts dissipate wanted by triangle?
+  bool has_energy_places() const;
+  bool records_energy() const { return has_energy_places() || impact_speed > 0; }
   bool has_bodies() const;
   bool has_nodes() const;
 };

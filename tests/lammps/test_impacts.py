@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""Impacts on a wall (keyword impacts), their spectrum, and what becomes of energy at each triangle."""
+
+import math
+import pathlib
+
+import lmp
+import stl
+import vtp
+from facts import at_most, fact
+from test_energy import ALONE, CAUSES, COLUMNS, DOWN, HELD, KN, MASS, MILL_K, MILL_LAW, NAMES, SPHERE, mill
+
+COUNT, ENERGY = "f_wall[73]", "f_wall[74]"
+
+
+def prepare(folder):
+    """The floor as two triangles, and as 98 of which none has a seam where the others have one."""
+    lmp.flat_floor(folder)
+    stl.write(folder / "cut.stl", stl.sheet(7, lambda i, j: (-3 + 6 * i / 7, -3 + 6 * j / 7, 0)))
+
+
+def row_of(text, names):
+    return dict(zip(("step", "ke", "spin", *names), lmp.read_thermo(text)[-1]))
+
+
+def hits(folder, law, dt, run, words="impacts 0.01", mesh="floor.stl", columns=(COUNT, ENERGY), ranks=1, **of):
+    """The last row: step, ke, spin, impacts, energy."""
+    of = {"x": "0.3 0.2 0.51", "v": "0 0 -1", "move": "fix move all nve/sphere", **of}
+    script = SPHERE.replace("mesh floor.stl energy", f"mesh {mesh} {words}")
+    return row_of(lmp.run_well(script.format(law=law, dt=repr(dt), columns=" ".join(columns), run=run, **of), folder, ranks),
+                  ("impacts", "energy", *range(len(columns) - 2)))
+
+
+LAWS = ("hooke 1e4 NULL 30 NULL 0 0", "hooke/history 1e4 1e4 30 NULL 0.5 1", "granular hertz 1e5 10 damping velocity tangential linear_nohistory 0 0.3",
+        "granular jkr 1e6 10 0.25 0.001 damping velocity tangential mindlin NULL 1 0.3")
+
+
+def test_bounce(folder):
+    """A sphere that falls at speed v is one impact of m v^2/2, of any law, with books of energy and without; slower than the least
+    speed it is none. It moves freely before, so that v is exact."""
+    for law in LAWS:
+        for words in ("impacts 0.01", "impacts 0.01 energy"):
+            b = hits(folder, law, 1e-3, "run 300", words)
+            fact(f"{law} {words}: one impact", b["impacts"] == 1, b)
+            at_most(f"{law} {words}: energy", abs(b["energy"] - 0.5), 1e-12)
+        fact(f"{law}: not faster than the least speed", hits(folder, law, 1e-3, "run 300", "impacts 1.0001")["impacts"] == 0)
+
+
+def test_no_impact(folder):
+    """A sphere that rests in overlap, at the begin of a run and of a second one, and one that slides over seams, are none."""
+    for law in LAWS[:2]:
+        for mesh in ("floor.stl", "cut.stl"):
+            for move in (HELD.format(v="0.9 0.4 0"), HELD.format(v="0 0 -0.02")):
+                b = hits(folder, law, 1e-3, "run 1000\nrun 1000", "impacts 1e-6", mesh, x=DOWN.replace("0.3 0.2", "-1.9 -1.1"), move=move)
+                fact(f"{law}, {mesh}, {move}: none", b["impacts"] == 0, b)
+
+
+FILES = "mesh_fields f_*.vtp every 100 impact_spectrum s_*.csv every 100"
+
+
+def fields(folder, step):
+    return vtp.read(pathlib.Path(folder) / f"f_{step}.vtp")
+
+
+def spectrum(folder, step):
+    text = (pathlib.Path(folder) / f"s_{step}.csv").read_text().split("\n")
+    fact("the first line names the columns", text[0] == "energy_from,energy_to,impacts,energy", text[0])
+    return [[float(word) for word in line.split(",")] for line in text[1:] if line]
+
+
+def sums(found):
+    return {name: math.fsum(found[name]) for name in ("dissipated_energy", "impacts", "impact_energy")}
+
+
+def test_place(folder):
+    """The triangle that is hit has the impact, its energy and speed, and what the bounce dissipates; another cut of the floor changes
+    nothing but the place."""
+    both = {}
+    for mesh in ("floor.stl", "cut.stl"):
+        b = hits(folder, LAWS[1], 1e-3, "run 300", f"impacts 0.01 energy {FILES}", mesh, (COUNT, ENERGY, *COLUMNS))
+        found, of = fields(folder, 300), dict(zip(NAMES, (b[k] for k in range(len(NAMES)))))
+        hit = [k for k, n in enumerate(found["impacts"]) if n]
+        fact(f"{mesh}: one triangle", len(hit) == 1, hit)
+        points, corners = found["points"], found["connectivity"]
+        xy = [(points[3 * c], points[3 * c + 1]) for c in corners[3 * hit[0]:3 * hit[0] + 3]]
+        side = [(a[0] - 0.3) * (c[1] - 0.2) - (a[1] - 0.2) * (c[0] - 0.3) for a, c in zip(xy, xy[1:] + xy[:1])]
+        fact(f"{mesh}: it is below the sphere", min(side) > 0 or max(side) < 0, xy)
+        at_most(f"{mesh}: its speed", abs(found["impact_speed"][hit[0]] - 1), 1e-12)
+        total = sums(found)
+        at_most(f"{mesh}: its energy", abs(total["impact_energy"] - 0.5), 1e-12)
+        at_most(f"{mesh}: dissipated", abs(total["dissipated_energy"] - sum(of[c] for c in CAUSES)), 1e-12)
+        fact(f"{mesh}: all of it there", found["dissipated_energy"][hit[0]] == total["dissipated_energy"])
+        both[mesh] = total
+        rows = spectrum(folder, 300)
+        fact(f"{mesh}: the bin has it", len(rows) == 1 and rows[0][0] <= 0.5 < rows[0][1] and rows[0][2] == 1, rows)
+        at_most(f"{mesh}: bins are of equal ratio", abs(rows[0][1] / rows[0][0] - 10 ** 0.1), 1e-12)
+        at_most(f"{mesh}: its energy in the bin", abs(rows[0][3] - 0.5), 1e-12)
+    fact("of both the same", all(abs(both["floor.stl"][k] - both["cut.stl"][k]) <= 1e-12 for k in both["floor.stl"]), both)
+
+
+def test_seam(folder):
+    """What slides over the seams of a cut floor dissipates mu F s there in all, by the triangles on its way."""
+    mu, v, n = 0.3, 0.9, 2000
+    totals = []
+    for mesh in ("floor.stl", "cut.stl"):
+        b = hits(folder, f"hooke/history {KN} 1e4 0 0 {mu} 1", 1e-3, f"run {n}", f"impacts 0.01 energy {FILES}", mesh, (COUNT, ENERGY, *COLUMNS),
+                 x=DOWN.replace("0.3 0.2", "-0.9 0.11"), v="0 0 0", move=HELD.format(v=f"{v} 0 0"))
+        found, of = fields(folder, n), dict(zip(NAMES, (b[k] for k in range(len(NAMES)))))
+        lost = mu * KN * 0.01 * v * 1e-3 * n
+        at_most(f"{mesh}: by triangle as of the mesh", abs(sums(found)["dissipated_energy"] - sum(of[c] for c in CAUSES)) / lost, 1e-12)
+        at_most(f"{mesh}: mu F s", abs(of["slider"] - lost) / lost, 0.01)
+        fact(f"{mesh}: triangles on the way", sum(e > 0 for e in found["dissipated_energy"]) >= (2 if mesh == "cut.stl" else 1))
+        totals.append(of["slider"])
+    at_most("another cut", abs(totals[0] - totals[1]) / totals[0], 1e-12)
+
+
+# ---- many spheres, processes and restart -------------------------------------------------
+
+WORDS = f"energy impacts 0.02 {FILES}"
+
+
+def roll(folder, steps, run, ranks=1, script=ALONE, words=WORDS):
+    dt = math.pi * math.sqrt(MASS / MILL_K) / 50
+    text = script.replace("periodic energy", f"periodic {words}")
+    out = lmp.run_well(text.format(law=MILL_LAW, dt=repr(dt), columns=f"{COUNT} {ENERGY} {' '.join(COLUMNS)}", run=run.format(n=steps)), folder, ranks)
+    return row_of(out, ("impacts", "energy", *NAMES)), fields(folder, 2 * steps), spectrum(folder, 2 * steps)
+
+
+def same(name, a, b):
+    at_most(f"{name}: rows", max(abs(a[0][k] - b[0][k]) for k in ("impacts", "energy", *CAUSES)) / b[0]["work"], 1e-12)
+    fact(f"{name}: number of impacts", a[0]["impacts"] == b[0]["impacts"])
+    for field, size in (("dissipated_energy", b[0]["work"]), ("impacts", b[0]["impacts"]), ("impact_energy", b[0]["energy"]), ("impact_speed", 1)):
+        at_most(f"{name}: {field} of each triangle", max(abs(x - y) for x, y in zip(a[1][field], b[1][field])) / size, 1e-12)
+    fact(f"{name}: the numbers of the spectrum", [r[:3] for r in a[2]] == [r[:3] for r in b[2]])
+    at_most(f"{name}: its energies", max(abs(x[3] - y[3]) for x, y in zip(a[2], b[2])) / b[0]["energy"], 1e-12)
+
+
+def test_mill(folder):
+    """Sums by triangle and by bin are those of the mesh; they are the same on 4 processes and after a restart in the middle."""
+    mill(folder / "mill.stl")
+    steps = 2000
+    whole = roll(folder, steps, "run {n}\nrun {n}")
+    row, found, rows = whole
+    fact("there are impacts", row["impacts"] > 100 and len(rows) > 5, row)
+    total = sums(found)
+    at_most("dissipated by triangle", abs(total["dissipated_energy"] - sum(row[c] for c in CAUSES)) / row["work"], 1e-12)
+    at_most("impacts by triangle", abs(total["impacts"] - row["impacts"]) / row["impacts"], 1e-12)
+    at_most("their energy by triangle", abs(total["impact_energy"] - row["energy"]) / row["energy"], 1e-12)
+    fact("impacts by bin", math.fsum(r[2] for r in rows) == row["impacts"])
+    at_most("energy by bin", abs(math.fsum(r[3] for r in rows) - row["energy"]) / row["energy"], 1e-12)
+    fact("a bin has what its borders allow", all(r[2] * r[0] <= r[3] * (1 + 1e-12) and r[3] <= r[2] * r[1] * (1 + 1e-12) for r in rows))
+    same("4 processes", roll(folder, steps, "run {n}\nrun {n}", 4), whole)
+    alone = roll(folder, steps, "run {n}\nrun {n}", words=f"impacts 0.02 {FILES}", script=ALONE.replace("{columns}", f"{COUNT} {ENERGY}"))
+    fact("without books the same impacts", alone[0]["impacts"] == row["impacts"] and alone[2] == rows)
+
+
+def test_restart(folder):
+    """After a restart in the middle all is as without, on 1 and 4 processes."""
+    mill(folder / "mill.stl")
+    steps = 2000
+    whole = roll(folder, steps, "run {n}\nrun {n}")
+    roll_half = ALONE.replace("{run}", "run {run}\nwrite_restart half.restart")
+    dt = math.pi * math.sqrt(MASS / MILL_K) / 50
+    lmp.run_well(roll_half.replace("periodic energy", f"periodic {WORDS}").format(law=MILL_LAW, dt=repr(dt), columns=" ", run=steps), folder)
+    lines = ALONE.splitlines(keepends=True)
+    first = next(k for k, line in enumerate(lines) if line.startswith("pair_style"))
+    again = "read_restart half.restart\ncomm_modify vel yes\n" + "".join(lines[first:])
+    for ranks in (1, 4):
+        same(f"restarted on {ranks}", roll(folder, steps, "run {n}", ranks, again), whole)
