@@ -714,6 +714,9 @@ typedef struct lsdcd_wall_spec {
   int average_every;
   int each_contact; /* 1: lsdcd_wall_get_contacts() will be called */
   int energy; /* 1: what contacts dissipate is booked, by cause; not with shapes, nodes_by_caller, coats and wear_deform_every */
+  /* The share of the heat of friction that goes into the spheres, 0 to 1, as `heat` of lsdcd_spheres; with `energy` and the
+   * sub-model heat */
+  double friction_heat;
   /* Impacts that are faster are recorded, length/time, with the speed along the normal; 0: none are. Not with shapes and
    * nodes_by_caller */
   double impact_speed;

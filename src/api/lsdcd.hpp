@@ -882,6 +882,7 @@ struct WallSpec {
   int average_every = 0;        // steps
   bool each_contact = false;    // Wall::contacts() will be called
   bool energy = false;          // what contacts dissipate is booked
+  double friction_heat = 0;     // the share of the heat of friction that goes into the spheres
   double impact_speed = 0;      // length/time; impacts that are faster are recorded
   bool shapes = false;          // grains may be no spheres
 };
@@ -957,7 +958,7 @@ class Spec {
     for (const WallMesh &mesh : from.meshes) meshes_.push_back(struct_of(mesh));
     auto &[size, law, meshes, n_meshes, corner, side, nearest, cell, memory, rmax, device, wear,
            wear_coefficient, hardness, wear_deform_every, wear_deform_factor, periodic_ends, brief,
-           average_every, each_contact, energy, impact_speed, shapes] = spec_;
+           average_every, each_contact, energy, friction_heat, impact_speed, shapes] = spec_;
     size = sizeof spec_;
     law = add(from.law);
     meshes = meshes_.data();
@@ -980,6 +981,7 @@ class Spec {
     average_every = from.average_every;
     each_contact = from.each_contact;
     energy = from.energy;
+    friction_heat = from.friction_heat;
     impact_speed = from.impact_speed;
     shapes = from.shapes;
   }

@@ -189,6 +189,8 @@ void read_setting(const Kind &kind, Given given, const std::string &field, T &to
     if (bytes > 0) to = static_cast<std::size_t>(bytes);
   } else if constexpr (std::is_same_v<Kind, StepsSetting>) {
     to = steps_or_none(given, field, kind.none, kStepsRange);
+  } else if constexpr (std::is_same_v<Kind, ShareSetting>) {
+    to = checked_number(given, field, kShareRange);
   } else if constexpr (std::is_same_v<Kind, SpeedSetting>) {
     to = number_or(0, given, field, kAbove0);
   } else {

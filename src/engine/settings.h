@@ -38,6 +38,8 @@ struct EngineSettings {
   bool nodes = false;       // WallEngine::nodes() will be used; contacts are kept, too
   WearModel wear = WearModel::none;    // where contacts are kept
   bool energy_places = false;          // where laws book energy, EnergyRecord::dissipated is wanted
+  Real friction_heat =
+      0;    // where laws book energy and have heat: the share of what the slider loses that is heat of the sphere
   Real impact_speed = 0;    // impacts that are faster are recorded (length/time); 0: none are
   HostArrays arrays = HostArrays::in_place;
   Device device = Device::automatic;

@@ -186,6 +186,8 @@ void read_setting(const Kind &kind, Tokens &w, const std::string &what, T &to)
     to = read_memory(w);
   } else if constexpr (std::is_same_v<Kind, StepsSetting>) {
     to = static_cast<T>(w.whole(what.c_str(), kStepsRange));
+  } else if constexpr (std::is_same_v<Kind, ShareSetting>) {
+    to = w.number(what.c_str(), kShareRange);
   } else if constexpr (std::is_same_v<Kind, SpeedSetting>) {
     to = w.number(what.c_str(), kAbove0);
   } else {

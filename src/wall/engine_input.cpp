@@ -37,6 +37,7 @@ EngineSettings EngineInput::settings(Device device, bool virial, bool pushed) co
   want.wear = wall_.wear.model;
   want.energy_places = wall_.has_energy_places();
   want.impact_speed = wall_.impact_speed;
+  want.friction_heat = wall_.friction_heat;
   want.device = device;
   want.device_rank = host_.ranks().node_rank;
   want.names = host_.names();

@@ -103,11 +103,13 @@ lsdcd::WallSpec spec_of(const lsdcd_wall_spec &given, const lsdcd::Mesh &any)
 {
   const auto &[size, law, meshes, n_meshes, corner, side, nearest, cell, memory, rmax, device, wear,
                wear_coefficient, hardness, wear_deform_every, wear_deform_factor, periodic_ends,
-               brief, average_every, each_contact, energy, impact_speed, shapes] = given;
+               brief, average_every, each_contact, energy, friction_heat, impact_speed, shapes] =
+      given;
   lsdcd::WallSpec out;
   auto &[law_, meshes_, corner_, side_, nearest_, cell_, memory_, rmax_, device_, wear_,
          wear_coefficient_, hardness_, wear_deform_every_, wear_deform_factor_, periodic_ends_,
-         brief_, average_every_, each_contact_, energy_, impact_speed_, shapes_] = out;
+         brief_, average_every_, each_contact_, energy_, friction_heat_, impact_speed_, shapes_] =
+      out;
   law_ = law_of(*law);
   for (std::size_t k = 0; k < n_meshes; k++) meshes_.push_back(mesh_of(meshes[k], any));
   corner_ = corner;
@@ -127,6 +129,7 @@ lsdcd::WallSpec spec_of(const lsdcd_wall_spec &given, const lsdcd::Mesh &any)
   average_every_ = average_every;
   each_contact_ = each_contact != 0;
   energy_ = energy != 0;
+  friction_heat_ = friction_heat;
   impact_speed_ = impact_speed;
   shapes_ = shapes != 0;
   (void) size;

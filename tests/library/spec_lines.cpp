@@ -222,7 +222,7 @@ class Lines {
   {
     const auto &[laws, meshes, inputs, corner, side, device, grid_length, rmax, nearest,
                  memory_budget, wear, wear_deform, average_every, contacts, each_contact, energy,
-                 impact_speed, shapes, periodic, brief] = spec;
+                 friction_heat, impact_speed, shapes, periodic, brief] = spec;
     const auto &[model, per_work] = wear;
     const auto &[every, factor] = wear_deform;
     put("law", laws);
@@ -245,6 +245,7 @@ class Lines {
     put("contacts", contacts);
     put("each_contact", each_contact);
     put("energy", energy);
+    put("friction_heat", friction_heat);
     put("impact_speed", impact_speed);
     put("shapes", shapes);
     put("periodic", periodic);

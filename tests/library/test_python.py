@@ -524,6 +524,19 @@ def test_wall_specs():
              np.allclose(bins.energy[[0, -1]], [0.5, 2], rtol=1e-12, atol=0) and (totals.impacts, round(totals.impact_energy, 11)) == (2, 2.5) and
              bins.begins[0] <= 0.5 < bins.ends[0] and bins.begins[-1] <= 2 < bins.ends[-1] and np.array_equal(bins.ends[:-1], bins.begins[1:]), bins)
         refused("impacts that a wall does not record", "set impact_speed", each.impacts, lsdcd.Error)
+        rubs = lsdcd.Law.granular(sub("hooke", kn=1000, eta=20), sub("linear_history", kt=500, xgammat=1, mu=0.4), "mass_velocity", heat=sub("radius", k=0))
+        taken, lost = np.zeros(2), []
+        for share in (0.25, 0):
+            warm = lsdcd.Wall(lsdcd.WallSpec(rubs, [lsdcd.WallMesh(mesh, surface_velocity=(0.7, 0, 0))], energy=True, friction_heat=share))
+            for k in range(200):
+                heat = np.zeros(2)
+                warm.step(x, v * 0, omega * 0, radius, mass, *np.zeros((2, 2, 3)), dt=1e-3, temperature=np.full(2, 300.0), heat=heat)
+                taken, lost = taken + 1e-3 * heat, warm.totals().dissipated
+            press = 1000 * (0.5 - x[:, 2])
+            fact(f"a share {share} of the power of friction, mu F v, is heat of the spheres", np.allclose(heat, share * 0.4 * press * 0.7, rtol=1e-12, atol=0), heat)
+            if share:
+                fact("and of its work in all", abs(taken.sum() - share * lost[1]) < 1e-12 * lost[1], (taken, lost))
+        refused("heat of friction without books", "give the wall energy", lambda: lsdcd.Wall(lsdcd.WallSpec(rubs, [lsdcd.WallMesh(mesh)], friction_heat=0.5)), lsdcd.Error)
         materials = os.path.join(folder, "some.lsdcd")
         with open(materials, "w", encoding="ascii") as f:
             f.write("units si\nmaterial glass\nyoungs_modulus 5e4 Pa\npoissons_ratio 0.23 1\npair glass glass\n"

@@ -97,6 +97,7 @@ BASES = {
     "wears": {"mesh": {"mesh": BOX}, "wall": {"wear": ("archard", 1e-6, 1e5)}},
     "recedes": {"mesh": {"mesh": BOX}, "wall": {"wear": ("archard", 1e-6, 1e5), "wear_deform": (3, 2.0)}},
     "fields": {"mesh": {"fields": (str(FOLDER / "a.*.vtp"), 50), "stl": (str(FOLDER / "a.*.stl"), 50)}},
+    "hot": {"wall": {"law": warm(), "energy": True, "friction_heat": 0.25}},
     "hit": {"mesh": {"spectrum": (str(FOLDER / "a.*.csv"), 50)}, "wall": {"impact_speed": 0.01}},
     "averaged": {"wall": {"average": 8}}, "nearest": {"wall": {"nearest": 2, "cell": 2.0}}, "periodic": {"options": {
         "lo": (-4, -4, -4), "hi": (4, 4, 4), "periodic": (True, True, False), "margin": 0.5}}}
@@ -121,7 +122,7 @@ BASE_WORDS = {
     "dense": "body density 0.5", "above": f"body {BODY} {BELOW_WORDS}", "coated": f"body {BODY} coat 1 0.1 {BELOW_WORDS}", "nodes": "nodes some",
     "wears": "wear archard 1e-6 1e5", "recedes": "wear archard 1e-6 1e5 deform every 3 factor 2",
     "fields": f"mesh_fields {FOLDER}/a.*.vtp every 50 mesh_stl {FOLDER}/a.*.stl every 50", "averaged": "average 8",
-    "hit": f"impact_spectrum {FOLDER}/a.*.csv every 50 impacts 0.01"}
+    "hot": f"{WARM} | temperature 0 energy friction_heat 0.25", "hit": f"impact_spectrum {FOLDER}/a.*.csv every 50 impacts 0.01"}
 ON_BOX = ("box", "slider", "hinge", "dense", "above", "coated", "wears", "recedes")
 
 
@@ -198,7 +199,7 @@ FIELDS = {
         "periodic_ends": of_wall("floor", EXACT, periodic_ends=True), "brief": of_wall("floor", EXACT, brief=True),
         "average_every": [of_wall("averaged", REFUSED, average=7), of_wall("floor", REFUSED, average=8), of_wall("averaged", REFUSED, average=0)],
         "each_contact": of_wall("floor", EXACT, each_contact=True), "energy": of_wall("floor", REFUSED, energy=True),
-        "impact_speed": [of_wall("floor", REFUSED, impact_speed=0.01), of_wall("hit", REFUSED, impact_speed=0.02)], "shapes": of_wall("floor", REFUSED, shapes=True)},
+        "friction_heat": of_wall("hot", REFUSED, friction_heat=0.5), "impact_speed": [of_wall("floor", REFUSED, impact_speed=0.01), of_wall("hit", REFUSED, impact_speed=0.02)], "shapes": of_wall("floor", REFUSED, shapes=True)},
     "lsdcd_wall_mesh": {
         "size": SIZE, "mesh": of_mesh("floor", REFUSED, mesh=WIDER), "name": of_mesh("floor", EXACT, name="another"),
         "placement": of_mesh("floor", REFUSED, placement=lsdcd.Placement().scale(1, 1, 2).move(0, 0, 0.25)), "law": of_mesh("floor", REFUSED, law=law(xmu=0.4)),
@@ -286,7 +287,8 @@ LINES = {
     "wall_spec.wear_deform_factor": ("wear_deform.factor = 1", "wear archard 1e-6 1e5 deform every 3"),
     "wall_spec.periodic_ends": ("periodic = 1", "periodic"), "wall_spec.brief": ("brief = 1", "log brief"),
     "wall_spec.average_every": ("average_every = 7", "average 7"), "wall_spec.each_contact": ("each_contact = 1", "each_contact"),
-    "wall_spec.energy": ("energy = 1; ...", "energy"), "wall_spec.impact_speed": ("impact_speed = 0.01; ...", "impacts 0.01"),
+    "wall_spec.energy": ("energy = 1; ...", "energy"), "wall_spec.friction_heat": ("friction_heat = 0.5", f"{WARM} | temperature 0 energy friction_heat 0.5"),
+    "wall_spec.impact_speed": ("impact_speed = 0.01; ...", "impacts 0.01"),
     "wall_spec.shapes": ("law0.for_shapes = 1; shapes = 1", None),    # atoms say it
     "wall_mesh.mesh": ("mesh0.vertices = 4.5", None), "wall_mesh.name": ("mesh0.name = another", None),
     "wall_mesh.placement": ("mesh0.placement.row2 = 0 0 2; mesh0.placement.shift = 0 0 0.25", "scale 1 1 2 move 0 0 0.25"),

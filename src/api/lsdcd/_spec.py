@@ -408,7 +408,8 @@ class WallSpec(_Spec):
     `periodic_ends`: meshes are meant to end at periodic faces. `brief`: one line in the log. `average`: steps of the means of
     force and torque in Wall.totals(), 0: there are none. `each_contact`: Wall.contacts() will be called. `energy`:
     what contacts dissipate is booked, in Wall.totals(). `impact_speed`, length/time: faster impacts are recorded, in Wall.totals(),
-    Wall.impacts() and the files of meshes; 0: none. `shapes`:
+    Wall.impacts() and the files of meshes; 0: none. `friction_heat`: the share, 0 to 1, of the heat of friction that goes into the
+    spheres, with `energy` and a law with heat. `shapes`:
     grains may be no spheres, so that Wall.step() reads half_axes and the others."""
 
     @_noted
@@ -417,7 +418,7 @@ class WallSpec(_Spec):
                  compute: str = "cpu", wear: tuple[str, float] | tuple[str, float, float] | None = None,
                  periodic_ends: bool = False, brief: bool = False, wear_deform: tuple[int, float] | None = None,
                  average: int = 0, each_contact: bool = False, shapes: bool = False,
-                 energy: bool = False, impact_speed: float = 0.0) -> None:
+                 energy: bool = False, impact_speed: float = 0.0, friction_heat: float = 0.0) -> None:
         parts = _instances(meshes, WallMesh, "meshes")
         array = (_WallMesh * len(parts))(*(part._struct for part in parts))
         model, coefficient, hardness = _wear(wear)
@@ -433,7 +434,7 @@ class WallSpec(_Spec):
             rmax=rmax, device=_chosen("compute", compute, (*DEVICES, "auto")), wear=model, wear_coefficient=coefficient,
             hardness=hardness, wear_deform_every=every, wear_deform_factor=factor,
             periodic_ends=_flag(periodic_ends, "periodic_ends"), brief=_flag(brief, "brief"), average_every=average,
-            each_contact=_flag(each_contact, "each_contact"), energy=_flag(energy, "energy"), impact_speed=impact_speed,
+            each_contact=_flag(each_contact, "each_contact"), energy=_flag(energy, "energy"), impact_speed=impact_speed, friction_heat=friction_heat,
             shapes=_flag(shapes, "shapes"))
         self._kept = (law, parts, array)    # what the struct points to
 

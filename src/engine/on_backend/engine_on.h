@@ -289,6 +289,7 @@ class EngineOn : public WallEngine {
     job.lists = broad_phase_.lists();
     job.springs = springs_.view();
     job.counts = counts_.data();
+    job.friction_heat = settings_.friction_heat;
     if (are_counts_clear_) first_step_ = step_.number;
     are_counts_clear_ = false;
     job.step = static_cast<std::uint64_t>(std::max<std::int64_t>(0, step_.number - first_step_)) &

@@ -77,6 +77,7 @@ struct BookingSink : SphereSink {
   EnergyBook<Law> *book;
   EnergyMarks *marks;
   EnergyRecordList records;
+  Real friction_heat;
 };
 template <class Law>
 using SinkOf = std::conditional_t<Law::kSetsUp, BookingSink<Law>, SphereSink>;
@@ -286,13 +287,19 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     if constexpr (Law::kSetsUp)
       if (!settings.update) memory = begun;
     [[maybe_unused]] Real lost_before = 0;
+    [[maybe_unused]] Real slid_before = 0;
     if constexpr (Law::kEnergy) {
+      slid_before = sink.book->rows[EnergyRow::slider];
       if constexpr (Law::kRecords) lost_before = dissipated(sink.book->rows);
       const BookedContact<Law> booked = {
           c, f, law.parts(c, begun, memory, f), weight, set.distance[i], arm};
       store_kept(sink.book->add(law, settings, s, booked, in, *sink.marks), law,
                  sink.extra + out.n_contacts * n_stored(law));
     }
+    if constexpr (Law::kEnergy && Law::kHeat)
+      if (law.has_heat() && settings.update)
+        *sink.heat +=
+            sink.friction_heat * (sink.book->rows[EnergyRow::slider] - slid_before) / c.dt;
     if constexpr (Law::kRecords) {
       EnergyRecord record = {set.feature[i], mesh, 0, 0, 0};
       if constexpr (Law::kEnergy) record.dissipated = dissipated(sink.book->rows) - lost_before;

@@ -151,6 +151,11 @@ LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const Energy
     if (!job.is_booked[k]) job.energy[k] = EnergyRows();
     EnergyBook<Law> book = {job.energy[k]};
     book.close(mesh.law, mesh.settings, state, marks, job.records);
+    if constexpr (Law::kHeat)
+      if (mesh.law.has_heat() && mesh.settings.update)
+        job.heat_flow[sphere.i] +=
+            job.friction_heat * (book.rows[EnergyRow::slider] - job.energy[k][EnergyRow::slider]) /
+            mesh.settings.dt;
     job.energy[k] = book.rows;
     job.is_booked[k] = 1;
   }
@@ -201,6 +206,7 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     if constexpr (Law::kEnergy) {
       to_mesh.book = &book;
       to_mesh.marks = &marks;
+      to_mesh.friction_heat = job.friction_heat;
     }
     if constexpr (Law::kRecords) to_mesh.records = job.records;
     if constexpr (Law::kHistory) to_mesh.springs += n_done;

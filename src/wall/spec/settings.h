@@ -28,6 +28,7 @@ struct StepsSetting {        // a whole number; 0 is `none`
   const char *none;
 };
 struct SpeedSetting {};     // a number above 0; 0 in a struct: off
+struct ShareSetting {};     // a number from 0 to 1
 struct FactorSetting {};    // a number; 0 is once and -1 never
 
 template <std::size_t n>
@@ -70,6 +71,10 @@ constexpr const char *kLogWords[] = {"full", "brief"};
   SETTING(energy, energy, FlagSetting{}, compared, "energy", "", "", "", "off",                    \
           "what contacts dissipate, by cause, and books of energy that close, as more numbers of " \
           "the vector")                                                                            \
+  SETTING(friction_heat, friction_heat, ShareSetting{}, compared, "friction_heat", "F", "",        \
+          "0 to 1", "0",                                                                           \
+          "the share of the heat of friction that goes into the grains; with energy "              \
+          "and the sub-model heat")                                                                \
   SETTING(impact_speed, impact_speed, SpeedSetting{}, compared, "impacts", "V", "velocity", "> 0", \
           "off",                                                                                   \
           "number and energy of impacts faster than V, as more numbers of the vector, in "         \

@@ -33,6 +33,7 @@ constexpr Member kMeshes = {"n_meshes", "mesh"}, kMesh = {"mesh", "mesh"}, kLaw 
                  kWearDeform = {"wear_deform_every", "wear"}, kCache = {"cache", "cache"},
                  kFields = {"fields", "mesh_fields"}, kStl = {"stl", "mesh_stl"},
                  kSpectrum = {"spectrum", "impact_spectrum"},
+                 kFrictionHeat = {"friction_heat", "friction_heat"},
                  kImpacts = {"impact_speed", "impacts"}, kNearest = {"nearest", "nearest"},
                  kSide = {"side", "side"}, kDevice = {"device", "device"},
                  kEnergy = {"energy", "energy"},
@@ -184,6 +185,10 @@ class SpecCheck {
       refuse(kWearDeform,
              "wear should move the meshes, but nothing wears: leave that out, or give the wall a "
              "model of wear");
+    if (wall_.friction_heat > 0 && !(wall_.energy && wall_.law().has_heat()))
+      refuse(kFrictionHeat, "the heat of friction comes from the books of energy, and goes where "
+                            "the law brings heat: give the wall "
+                            "energy and the sub-model heat, too, or leave it out");
     if (wall_.shapes) check_shapes();
   }
 

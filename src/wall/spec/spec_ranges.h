@@ -20,6 +20,7 @@ constexpr NumberRange kCellRange = kAbove0, kNearestRange = {1, kMaxNearest};
 constexpr NumberRange kStepsRange = {1, std::numeric_limits<int>::max()};
 constexpr NumberRange kWearCoefficientRange = kNotBelow0, kHardnessRange = kAbove0,
                       kWearDeformFactorRange = kAbove0, kWearFactorRange = kNotBelow0;
+constexpr NumberRange kShareRange = {0, 1};
 constexpr NumberRange kPeriodRange = kAbove0;
 constexpr NumberRange kServoSpeedRange = kAbove0, kServoGainRange = kAbove0,
                       kServoLoRange = {-Tokens::kHuge, 0}, kServoHiRange = kNotBelow0;

@@ -102,6 +102,7 @@ struct WallSpec {
   bool contacts = false;        // for_contact_rows() will be called
   bool each_contact = false;    // for_contacts() will be called
   bool energy = false;          // what contacts do with energy is booked (EnergyBooks)
+  Real friction_heat = 0;       // the share of the heat of friction that goes into the spheres
   Real impact_speed =
       0;    // length/time; impacts that are faster are recorded (EnergyRecorder); 0: none
   bool shapes = false;      // grains may be no spheres (Spheres::shapes)
