@@ -220,8 +220,11 @@ struct EnergyBook {
         rows[EnergyRow::turned_springs] += energy_left(old, slip, rolling, twisting, dt);
       else
         book_springs_at_end(old, n, slip, rolling, twisting, dt, rows);
-      if constexpr (Law::kRecords)
-        records.put({s.springs[k].feature, settings.mesh, dissipated(rows) - lost_before, 0, 0});
+      if constexpr (Law::kRecords) {
+        const EnergyRecord lost = {s.springs[k].feature, settings.mesh,
+                                   dissipated(rows) - lost_before, 0, 0};
+        records.put(lost);
+      }
     }
   }
 
