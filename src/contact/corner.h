@@ -52,7 +52,7 @@ inline constexpr bool kFades = false;    // is there a fade_of(set, i)?
 //   minimise 1/2 l'Gl - d'l + s/2 sum m_i (l_i / d_i - 1 / m_i)^2  subject to l >= 0,
 // with overlaps d_i = radius - distance_i > 0 and m_i = sum_j G_ij d_j / d_i, how many times contact i is covered.
 // G_ii = 1, and G_ij, the cover of two contacts, is the cosine between their normals, or 0 where that is negative:
-// contacts at right and sharper angles have w = 1 exactly. The weights of parallel duplicates sum to 1.
+// contacts whose normals are at 90 degrees or more have w = 1 exactly. The weights of parallel duplicates sum to 1.
 //
 // The cover is less than the cosine by up to 1e-6, so that contacts whose normals depend on each other have one
 // solution. Where many walls surround a sphere the problem is not convex without its last term: s is twice what makes
@@ -64,8 +64,8 @@ inline constexpr bool kFades = false;    // is there a fade_of(set, i)?
 // negative.
 //
 // A closest point that lies in the tangent plane of another contact bears nothing: its gradient is
-// (s - h) (R - s - h) / s, where s and h are the two distances. Where the two closest points are close,
-// rounding hides the sign of s - h. So edges that lie in the plane of a face, and vertices in that of an
+// (a - b) (R - a - b) / a, where a and b are the two distances and R is the radius. Where the two closest points are close,
+// rounding hides the sign of a - b. So edges that lie in the plane of a face, and vertices in that of an
 // edge or face, to `tolerance` (length), are left out first. Else the rim of a T-junction would turn the
 // force by the square root of a rounding error.
 //

@@ -56,7 +56,7 @@ LSDCD_FN bool are_adjacent(const MeshFeaturesView &wall, FeatureCode a, FeatureC
 // Cosine above which a contact that changed features is still the same contact.
 constexpr Real kMoved = 0.7;
 
-// Returns the springs of the last step as one mesh sees them. If the wall has one mesh, all are of this mesh.
+// Is spring k of the last step on the mesh that is looked at? If the wall has one mesh, all are.
 LSDCD_FN bool is_own(const Spring *, int)
 {
   return true;
@@ -91,7 +91,7 @@ struct Transfer {
   Real part;    // 0 to 1
 };
 
-// 1. The spring of the same feature.
+// 1. The spring of the same feature, unless the normal has turned round.
 // 2. Else one whose contact was left this step, next to this one and nearly
 //    aligned: the contact moved across a seam, the spring goes with it, whole.
 // 3. Else the best aligned spring times max(0, n.n): a contact born beside

@@ -44,7 +44,7 @@ struct CandidateUpdate {
 
 class CandidateSchedule {
  public:
-  // The next step is due, whatever has moved.
+  // A choice is due in the next step, whatever has moved.
   void expire() { expired_ = true; }
 
   // Whether spheres are chosen in this step. `moving`: the meshes that move, always in the same order.

@@ -6,9 +6,9 @@
 //   kVectors, kScalars how many vectors and scalars that has beside the shear displacement
 //   kBeyondContact, pull_off  does it act beyond contact, and up to what distance at radius 1?
 //   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
-//   kWholeArms         in a pair, is the arm of the tangential force the radius? Else half of the overlap is less.
-//   kMidpoint            may friction be at the middle of the overlap, its slip too, as with is_at_midpoint()? At a wall, else, at
-//                      the radius
+//   kWholeArms         in a pair, is the arm of the tangential force the radius? Else it is less by half of the overlap.
+//   kMidpoint            can friction and slip be taken at the middle of the overlap (is_at_midpoint())? Else they are at the
+//                      radius
 //   evaluate(contact, memory)    of a Contact or a PairContact
 // and, with kVectors or kScalars, and with kHeat
 //   stores(k)           is the k-th of these vectors and scalars stored from step to step?

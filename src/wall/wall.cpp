@@ -458,7 +458,7 @@ void Wall::collect(int n)
 
 void Wall::finish(const HostSpheres &spheres)
 {
-  submit(spheres);
+  submit(spheres);    // nothing, if the host has submitted
   if (!bodies_.empty() && coats_.any()) {
     times_.begin();
     coats_.step(input_.step);

@@ -27,7 +27,7 @@ struct SphereStateWith {
   Vec3 x, v, omega;
   Real radius, mass;
   Springs springs;      // of the last step
-  const Real *extra;    // n_extra(law) numbers for each of them
+  const Real *extra;    // n_stored(law) numbers for each of them
   int n_springs;
   Real temperature;    // read only where the law has heat
 };
@@ -37,7 +37,7 @@ using SphereState = SphereStateWith<const Spring *>;
 // it, heat, contacts.
 struct SphereSink {
   Spring *springs;          // one per contact
-  Real *extra;              // n_extra(law) per contact
+  Real *extra;              // n_stored(law) per contact
   Real *heat;               // power into the sphere
   StepContact *contacts;    // one per contact
 };

@@ -47,6 +47,7 @@ LSDCD_FN SphereState state_at(const Law &law, const StepJob &job, std::size_t i,
   return s;
 }
 
+// Adds what only a sphere with a contact needs: its velocities, mass and temperature.
 template <class Law, class Springs>
 LSDCD_FN void add_motion(const Law &law, const StepJob &job, const Pose &pose, std::size_t i,
                          SphereStateWith<Springs> &s)
