@@ -37,9 +37,9 @@ lsdcd::Partners &FixSpringsLsdcdKokkos<DeviceType>::of_atoms()
 }
 
 template <class DeviceType>
-void FixSpringsLsdcdKokkos<DeviceType>::need_on_device()
+void FixSpringsLsdcdKokkos<DeviceType>::need_on_device(int n_atoms)
 {
-  if (!on_device) engine->from_cpu(partners, atom->nlocal);
+  if (!on_device) engine->from_cpu(partners, n_atoms);
   on_device = true;
 }
 
@@ -61,7 +61,7 @@ void FixSpringsLsdcdKokkos<DeviceType>::begin_step(const lsdcd::PairRows &of_ste
   own = atom->nlocal;
   ghosts_too = newton && !rows.full;
   if (new_list) {
-    need_on_device();
+    need_on_device(atom->nlocal);
     engine->hand_out(rows, names());
   }
   new_list = shown = false;
@@ -126,7 +126,8 @@ int FixSpringsLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
                                                             ExecutionSpace space)
 {
   if (!keeps()) return 0;
-  need_on_device();
+  // LAMMPS has taken the n atoms that leave from nlocal already, and atoms behind it come to their places.
+  need_on_device(atom->nlocal + n);
   which.template sync<DeviceType>();
   from.template sync<DeviceType>();
   buffer.clear_sync_state();
@@ -148,7 +149,7 @@ void FixSpringsLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBu
                                                                ExecutionSpace space)
 {
   if (!keeps()) return;
-  need_on_device();
+  need_on_device(atom->nlocal);
   buffer.clear_sync_state();
   if (lsdcd::sends_from_host<DeviceType>(space)) buffer.template modify<LMPHostType>();
   buffer.template sync<DeviceType>();
@@ -162,7 +163,7 @@ template <class DeviceType>
 void FixSpringsLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter)
 {
   if (!keeps()) return;
-  need_on_device();
+  need_on_device(atom->nlocal);
   engine->grow(atom->nlocal);
   using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
   sorter.sort(LMPDeviceType(), Ints(engine->first(), atom->nlocal));

@@ -45,7 +45,7 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
   std::vector<double> numbers_of(int i, int j);
 
   lsdcd::GrainNames names();
-  void need_on_device();
+  void need_on_device(int n_atoms);
 
   class AtomKokkos *atomKK;
   lsdcd::PairEngine *engine = nullptr;    // of the pair style, which is there as long as this is

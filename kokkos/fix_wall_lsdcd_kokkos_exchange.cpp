@@ -73,8 +73,9 @@ int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
   const int *comes = from.template view<DeviceType>().data();
   double *at = buffer.template view<DeviceType>().data();
   int size = pack_rows(n, leaves, comes, at);
+  // LAMMPS has taken the n atoms that leave from nlocal already, and atoms behind it come to their places.
   if (has_history())
-    size += wall->history().in_engine(atom->nlocal).pack(n, leaves, comes, at + size);
+    size += wall->history().in_engine(atom->nlocal + n).pack(n, leaves, comes, at + size);
   if (lsdcd::sends_from_host<DeviceType>(space)) {
     buffer.template modify<DeviceType>();
     buffer.template sync<LMPHostType>();
