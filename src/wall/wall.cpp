@@ -75,7 +75,7 @@ std::string Wall::named(const MeshPart &m, const std::string &text) const
 void Wall::list_meshes()
 {
   for (std::vector<MeshPart *> *list :
-       {&placed_, &moving_, &changing_, &bodies_, &servos_, &recorded_})
+       {&placed_, &moving_, &changing_, &bodies_, &servos_, &recorded_, &with_energy_records_})
     list->clear();
   for (MeshPart &m : meshes_) {
     if (m.moves()) placed_.push_back(&m);
@@ -84,6 +84,7 @@ void Wall::list_meshes()
     if (m.body) bodies_.push_back(&m);
     if (m.servo().present) servos_.push_back(&m);
     if (spec_.has_loads(m.spec)) recorded_.push_back(&m);
+    if (spec_.records_energy()) with_energy_records_.push_back(&m);
   }
 }
 
@@ -505,12 +506,12 @@ void Wall::note_step(const HostSpheres &spheres)
                  left ? m->records() : MeshFeaturesView());
     }
   if (spec_.energy) energy_.add(left, step);
-  if (spec_.records_energy() && left && step.kind == Step::step)
-    for (const MeshPart &m : meshes_) {
+  if (left && step.kind == Step::step)
+    for (const MeshPart *m : with_energy_records_) {
       if (engine_->energies())
-        records_.add(m.index, m.feature_counts());
+        records_.add(m->index, m->feature_counts());
       else
-        records_.add(m.index, left->energy_records(), m.records());
+        records_.add(m->index, left->energy_records(), m->records());
     }
   for (const MeshPart *m : changing_)
     if (left) m->surface->end(*left, step);

@@ -256,7 +256,8 @@ class Wall {
   // Lists of them, in their order: who has nothing to do in a step is in none. Those that are, or may be, where their file does not
   // have them; of these, and of those whose surface varies, those that may move in the next step; whose own shape changes; that are
   // bodies; that have a servo; whose loads are recorded. Those whose nodes move, which stay the same.
-  std::vector<MeshPart *> placed_, moving_, changing_, bodies_, servos_, recorded_;
+  std::vector<MeshPart *> placed_, moving_, changing_, bodies_, servos_, recorded_,
+      with_energy_records_;
   std::vector<MeshNodes *> with_nodes_;
   EngineInput engine_input_;
   BodyCoats coats_;

@@ -134,7 +134,7 @@ class EngineOn : public WallEngine {
     if (!gives_back_at_submit()) mirror_.start_back(b_);
     mirror_.collect(b_);
     state_ = StepState::none;
-    results_.fetch(b_, springs_.contacts(step_.update_history || law_.traits.sets_up()));
+    results_.fetch(b_, springs_.contacts(step_.update_history || law_.traits.sets_up));
   }
 
   StepResults &results() override { return results_; }
@@ -200,7 +200,7 @@ class EngineOn : public WallEngine {
   // Return the contacts of the last step, and its records of energy without the sums of a mesh.
   NodeContacts contacts_on(int mesh) const
   {
-    return results_.node_contacts(springs_.contacts(step_.update_history || law_.traits.sets_up()),
+    return results_.node_contacts(springs_.contacts(step_.update_history || law_.traits.sets_up),
                                   mesh, features(mesh), nullptr);
   }
   LoadRecords records_on(int mesh) const
@@ -307,7 +307,7 @@ class EngineOn : public WallEngine {
     else
       run_law(job, n, law_of(0, 0));
     // Where a setup stores what contacts keep, it leaves springs as they are.
-    if (step_.update_history || law_.traits.sets_up()) springs_.swap();
+    if (step_.update_history || law_.traits.sets_up) springs_.swap();
     if (step_.totals && !B::kOnCpu) results.start_sums(b_);
   }
 

@@ -117,11 +117,9 @@ struct StepJob;
 // The numbers that engines store and move for a law.
 struct LawTraits {
   bool history, heat, contacts, energy, records;
+  bool sets_up;    // does a setup store what contacts keep?
   // n_vectors, at most kMostVectors: of the extra numbers those that come first, three each
   int n_extra, n_vectors;
-
-  // Does a setup store what contacts keep?
-  bool sets_up() const { return energy || records; }
 };
 
 template <class Law>
@@ -133,8 +131,8 @@ LawTraits traits_of(const Law &law)
   int n_vectors = 0;
   if constexpr (Law::kVectors > 0)
     for (int k = 0; k < Law::kVectors; k++) n_vectors += law.stores(k);
-  return {Law::kHistory, heat,     Law::kKeepsContacts, Law::kEnergy, Law::kRecords,
-          n_stored(law), n_vectors};
+  return {Law::kHistory, heat,         Law::kKeepsContacts, Law::kEnergy,
+          Law::kRecords, Law::kSetsUp, n_stored(law),       n_vectors};
 }
 
 // A law compiled for one backend; run() does the step of n candidates, see run_compiled_law().
