@@ -17,6 +17,17 @@ NAMES = (*(f"{c} power" for c in CAUSES), *CAUSES, *OTHERS, "work", "drive", "he
 FIRST = 55    # column of the fix
 COLUMNS = [f"f_wall[{FIRST + k}]" for k in range(len(NAMES))]
 
+# The end of each script.
+TELL = """\
+timestep        {dt}
+compute         move all ke
+compute         spin all erotate/sphere
+thermo_style    custom step c_move c_spin {columns}
+thermo_modify   format float %.17g norm no
+thermo          1000000
+{run}
+"""
+
 # A sphere of radius 0.5 and mass 1 above the floor, at x 0.3 off its seam.
 SPHERE = lmp.head("-3 3 -3 3 -1 5") + """\
 create_atoms    1 single {x} units box
@@ -26,14 +37,7 @@ pair_style      zero 1.2
 pair_coeff      * *
 {move}
 fix             wall all wall/lsdcd {law} mesh floor.stl energy
-timestep        {dt}
-compute         move all ke
-compute         spin all erotate/sphere
-thermo_style    custom step c_move c_spin {columns}
-thermo_modify   format float %.17g norm no
-thermo          1000000
-{run}
-"""
+""" + TELL
 
 
 def books(folder, law, dt, run, x="0.3 0.2 0.4", v="0 0 0", move="fix move all nve/sphere", ranks=1):
@@ -282,14 +286,7 @@ pair_coeff      * *
 fix             move all nve/sphere
 fix             g all gravity 1 vector 0 0 -1
 fix             wall all wall/lsdcd {law} mesh cask.stl {words} energy
-timestep        {dt}
-compute         move all ke
-compute         spin all erotate/sphere
-thermo_style    custom step c_move c_spin {columns}
-thermo_modify   format float %.17g norm no
-thermo          1000000
-{run}
-"""
+""" + TELL
 CASK_LAW = "granular hooke 1e4 5 damping mass_velocity tangential linear_history 5e3 1 0.4 rolling sds 50 0.1 0.05 twisting sds 5 0 0.01"
 
 
@@ -387,14 +384,7 @@ neigh_modify    delay 0 every 1 check yes
 fix             move all nve/sphere
 fix             g all gravity 9.81 vector 0 0 -1
 fix             wall all wall/lsdcd {law} mesh mill.stl motion rotate 0 0 0 0 1 0 1.2 periodic energy
-timestep        {dt}
-compute         move all ke
-compute         spin all erotate/sphere
-thermo_style    custom step c_move c_spin {columns}
-thermo_modify   format float %.17g norm no
-thermo          1000000
-{run}
-"""
+""" + TELL
 MASS = 7800 * 4 / 3 * math.pi * 0.008 ** 3
 MILL_K = 3e4
 MILL_LAW = f"granular hooke {MILL_K} 20 damping mass_velocity tangential linear_history {MILL_K * 2 / 7} 1 0.4 rolling sds 1e3 0.1 0.01 twisting sds 0.02 0 1e-4"
