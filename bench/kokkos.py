@@ -1,21 +1,16 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""What a wall costs a step of a LAMMPS with Kokkos: `./run bench kokkos`, and with how many grains: `./run bench scale`.
+"""What a wall costs a step of a LAMMPS with Kokkos: `./run bench kokkos`.
 
-*kokkos*: beds of spheres (gran/hooke/history/kk) on a flat floor of 2 triangles, in a closed box of six walls of 20 172 triangles (by
+Beds of spheres (gran/hooke/history/kk) on a flat floor of 2 triangles, in a closed box of six walls of 20 172 triangles (by
 hooke/history and by granular mindlin, sds, marshall) and on a bumpy floor of 1 000 000, timed with fix wall/lsdcd/kk and without any
 wall from one prepared state. Three scripts make a measurement. The first fills a lattice and, where runs want it, gives the atoms a
 random order in memory, without Kokkos: they are put to random places, sorted there by LAMMPS, and put back. The second lets them settle
 on our wall and sets them in motion along it. The third begins from what the second has written, with a wall or without, and is timed.
 
-*scale*: the closed box, as many spheres for each process, each with a GPU of its own: steps without the wall, with it and without it
-again, in one run; memory of a card; times of setting up.
-
 With a LAMMPS of one's own:
   ./run bench kokkos --lmp FILE --plugin build/lib/lsdcdkkplugin.so --flags "-k on g 1 -sf kk"
-  ./run bench scale --lmp FILE --plugin build/lib/lsdcdkkplugin.so --ranks "1 2 4" --side 292 \\
-    --flags "-k on g {ranks} -sf kk -pk kokkos newton off neigh half gpu/aware on comm device"
 Without --lmp: those of LSDCD_KOKKOS_HOSTS, as the build knows them.
 """
 import math
@@ -25,9 +20,8 @@ import re
 import shutil
 import statistics
 import subprocess
-import sys
 
-from kokkos_beds import LAW, WALL_CELLS, Bed
+from kokkos_beds import LAW, Bed
 from lammps import Program, bench, in_turn, loop_ms
 from rows import cpu, gpu, say, timed
 
@@ -239,78 +233,6 @@ def measure_beds(host, options, place):
     return found
 
 
-# ---- scale: a closed box without a wall, with it and without it -------------------------------------
-
-BOX = """\
-variable        made timer
-run             0
-variable        alone timer
-print           "made in $(v_made-v_began) s, set up in $(v_alone-v_made) s"
-run             {warm}
-{chunks}
-shell           {memory} > memory.alone
-print           "with the wall"
-variable        before timer
-{wall}
-run             0
-variable        after timer
-variable        touching equal f_wall[7]
-thermo_style    custom step atoms v_touching
-run             {warm}
-print           "wall set up in $(v_after-v_before) s, touching $(v_touching:%.0f)"
-thermo_style    custom step atoms
-{chunks}
-shell           {memory} > memory.wall
-print           "without"
-unfix           wall
-run             {warm}
-{chunks}
-"""
-
-
-def memory(path):
-    """MiB of the fullest card, or nothing."""
-    try:
-        return max(int(word) for word in path.read_text().split())
-    except (OSError, ValueError):
-        return None
-
-
-def time_box(host, bed, options, work):
-    """Without the wall and with it."""
-    ask = "nvidia-smi --query-gpu=memory.used --format=csv,noheader,nounits" if host.on_gpu else "true"
-    quiet = f"thermo_style custom step atoms\nthermo 100000000\ntimestep {DT}\n"
-    run = host.run(plugin_script(host, bed) + "variable began timer\n" + first_script(bed) +
-                   FORCES.format(bed=bed, sort=ORDERS["sorted"], law=LAW) + quiet +
-                   BOX.format(warm=WARM, chunks=f"run {options.steps} pre no\n" * options.chunks, memory=ask, wall=bed.wall()),
-                   work, bed.ranks, may_fail=True)
-    if run.failed:
-        say(f"{bed.ranks} processes failed:\n{run.output[-1500:]}")
-        return []
-    before, wall, after = (loop_ms(part)[1:] for part in re.split(r"^with the wall$|^without$", run.output, flags=re.M))
-    made, alone = re.search(r"^made in (\S+) s, set up in (\S+) s", run.output, re.M).groups()
-    wall_s, touching = re.search(r"^wall set up in (\S+) s, touching (\d+)", run.output, re.M).groups()
-
-    def row(name, ms, **what):
-        return host.row("scale", "closed box" + name, bed, options.commit, "sorted", ms, steps=options.steps, **what)
-
-    return [row(NO_WALL, before + after, make_s=f"{float(made):.3g}", setup_s=f"{float(alone):.3g}", mib=memory(work / "memory.alone")),
-            row("", wall, setup_s=f"{float(wall_s):.3g}", touching=touching, mib=memory(work / "memory.wall"),
-                over_no_wall=f"{statistics.median(wall) / statistics.median(before + after):.4g}")]
-
-
-def measure_scale(host, options, place):
-    found = []
-    for ranks in options.ranks:
-        for cells in options.cells:
-            work = place / f"{ranks}-{cells}"
-            work.mkdir(parents=True, exist_ok=True)
-            found += time_box(host, Bed("box", ranks * options.side**3, ranks, work, cells=cells), options, work)
-            if not options.scripts_to:
-                shutil.rmtree(work)
-    return found
-
-
 # ---- words ------------------------------------------------------------------------------
 
 def built_hosts(build):
@@ -356,14 +278,6 @@ OF_BEDS = [
     ("--settle", dict(type=int, default=3000, metavar="N", help="steps before (default %(default)s)")),
     ("--against", dict(action="store_true", help="time LAMMPS's own flat walls on the flat floor, too")),
     ("--bodies", dict(action="store_true", help="time the closed box, and its floor, as a rigid body, too"))]
-OF_SCALE = [
-    ("--steps", dict(type=int, default=50, metavar="N", help="timed as one (default %(default)s)")),
-    ("--side", dict(type=int, default=292, metavar="N", help="N^3 spheres for each process (default %(default)s)")),
-    ("--cells", dict(type=int, nargs="+", default=[WALL_CELLS], metavar="N",
-                     help="the mesh has 12 N^2 triangles (default: %(default)s)"))]
 
 if __name__ == "__main__":
-    if sys.argv.pop(1) == "scale":
-        bench("scale", __doc__, on_hosts(measure_scale), WORDS + OF_SCALE, quick={"side": 16})
-    else:
-        bench("kokkos", __doc__, on_hosts(measure_beds), WORDS + OF_BEDS, quick={"atoms": [4000], "triangles": 20000, "settle": 500})
+    bench("kokkos", __doc__, on_hosts(measure_beds), WORDS + OF_BEDS, quick={"atoms": [4000], "triangles": 20000, "settle": 500})

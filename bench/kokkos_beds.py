@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Beds of spheres for kokkos.py: what a script says of them, and their meshes."""
+"""Beds of spheres for kokkos*.py: what a script says of them, and their meshes."""
 import math
 
 import lammps    # noqa: F401, by which stl.py is found
