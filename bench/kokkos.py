@@ -21,7 +21,7 @@ import shutil
 import statistics
 import subprocess
 
-from kokkos_beds import LAW, Bed
+from kokkos_beds import GRAINS, Bed
 from lammps import Program, bench, in_turn, loop_ms
 from rows import cpu, gpu, say, timed
 
@@ -81,8 +81,7 @@ comm_modify     vel yes
 
 FORCES = """\
 atom_modify     sort {sort}
-pair_style      gran/{law}
-pair_coeff      * *
+{pair}
 neighbor        0.1 bin
 neigh_modify    {bed.neighbours}
 fix             move all nve/sphere
@@ -152,7 +151,7 @@ def plugin_script(host, bed):
 
 
 def script_from(host, bed, file, wall, sort="0 0"):
-    return plugin_script(host, bed) + f"read_restart {file}\n" + FORCES.format(bed=bed, sort=sort, law=LAW) + wall + "\n"
+    return plugin_script(host, bed) + f"read_restart {file}\n" + FORCES.format(bed=bed, sort=sort, pair=GRAINS["hooke"][0]) + wall + "\n"
 
 
 def prepare(host, bed, folder, settle, shuffled):

@@ -11,11 +11,19 @@ LAW = "hooke/history 4000 NULL 100 NULL 0.5 1"
 # As stiff as LAW where the closed box is compressed.
 GRANULAR = ("granular hertz/material 65000 0.7 0.25 tangential mindlin NULL 1.0 0.5 "
             "rolling sds 2000 20 0.1 twisting marshall damping coeff_restitution")
+# The same without rolling and twisting, which grains have among themselves, too, where a benchmark says "mindlin".
+MINDLIN = "hertz/material 65000 0.7 0.25 tangential mindlin NULL 1.0 0.5 damping coeff_restitution"
+# Of grains: {name: (pair style and coefficients, the same law as a wall has it)}
+GRAINS = {"hooke": (f"pair_style gran/{LAW}\npair_coeff * *", LAW),
+          "mindlin": (f"pair_style granular/lsdcd\npair_coeff * * {MINDLIN}", f"granular {MINDLIN}")}
 SPEED = 20.0    # along the wall
 CUBE = math.sqrt(2)    # edge of the lattice's cube of 4 sites, neighbours 1 apart
 PLANES = 40    # of spheres on a floor
 SPACING = 0.985    # of spheres of diameter 1 in the closed box: compressed by 1.5 %
 WALL_CELLS = 41    # along and across each of its six walls
+DRUM_AROUND, DRUM_RINGS = 360, 69    # segments of a drum, and rings of each lid; twice as many along its shell
+DRUM_PERIOD = 3000.0    # of a turn: its wall moves by 1/1000 of what its grains fall freely through a radius, at most
+HOPPER_AROUND, HOPPER_RINGS = 180, 28    # segments of a hopper, and rings of each part
 
 
 def near_square(ranks):
@@ -26,16 +34,21 @@ def near_square(ranks):
 
 
 class Bed:
-    """A bed of `atoms` spheres, its mesh in a file of `folder`, for `ranks` processes. `million`: triangles of a bumpy floor; `cells`:
-    along and across each wall of a closed box."""
+    """A bed of `atoms` spheres, in a drum or a hopper about as many, its mesh in a file of `folder`, for `ranks` processes. `million`:
+    triangles of a bumpy floor; `cells`: along and across each wall of a closed box; `time`: for which the box has room below a hopper."""
 
-    def __init__(self, name, atoms, ranks, folder, million=1000000, cells=WALL_CELLS):
+    def __init__(self, name, atoms, ranks, folder, million=1000000, cells=WALL_CELLS, time=0.0):
         self.name, self.atoms, self.ranks = name, atoms, ranks
         self.mesh = folder / "wall.stl"
         self.split = near_square(ranks)
         self.law = GRANULAR if name == "granular" else LAW    # of our wall
+        self.turns = ""    # words of the mesh
         if name in ("box", "checked", "granular"):
             self.closed_box(cells)
+        elif name == "drum":
+            self.drum()
+        elif name == "hopper":
+            self.hopper(time)
         else:
             self.floor(million)
 
@@ -86,10 +99,55 @@ class Bed:
         self.region = "region bed block " + " ".join(f"0 {s!r}" for s in side) + " units box"
         self.motion = ""
 
+    def drum(self):
+        """Half full and turning about y, as long for each process as its radius."""
+        radius = (2 * self.atoms / self.ranks / math.pi)**(1 / 3)
+        length = self.ranks * radius
+
+        def around(r, y):
+            return [(a, y, b) for a, b, _ in ring(r, 0.0, DRUM_AROUND)]
+
+        lids = [[around(radius * k / DRUM_RINGS, y) for k in range(1, DRUM_RINGS + 1)] for y in (0.0, length)]
+        shell = [around(radius, length * k / (2 * DRUM_RINGS)) for k in range(2 * DRUM_RINGS + 1)]
+        triangles = [t for rows in (*lids, shell) for one, other in zip(rows, rows[1:]) for t in strip(one, other)]
+        for rows, y in zip(lids, (0.0, length)):
+            triangles += [((0.0, y, 0.0), a, b) for a, b in zip(rows[0], rows[0][1:])]
+        self.triangles = len(triangles)
+        write_stl(self.mesh, triangles, "a drum")
+        self.turns = f" motion rotate 0 0 0 0 1 0 {DRUM_PERIOD}"
+        self.loose(1.0)
+        self.box = f"{-radius - 1!r} {radius + 1!r} -1 {length + 1!r} {-radius - 1!r} {radius + 1!r}"
+        self.region = (f"region shell cylinder y 0 0 {radius - 0.6!r} 0.6 {length - 0.6!r} units box\n"
+                       "region lower block INF INF INF INF INF 0 units box\nregion bed intersect 2 shell lower")
+
+    def hopper(self, time):
+        """A bin over a funnel from which grains fall. After `time` they have fallen no deeper than the box goes: what they have at the
+        outlet is less than a fall through the radius gives."""
+        self.radius = (self.atoms / 7.5)**(1 / 3)
+        outlet, self.top = max(3.0, 0.12 * self.radius), 3 * self.radius
+        levels = [(outlet + (self.radius - outlet) * k / HOPPER_RINGS, self.radius * k / HOPPER_RINGS) for k in range(HOPPER_RINGS + 1)]
+        levels += [(self.radius, self.radius + (self.top + 10 - self.radius) * k / HOPPER_RINGS) for k in range(1, HOPPER_RINGS + 1)]
+        wall = [t for low, high in zip(levels, levels[1:]) for t in strip(ring(*low, HOPPER_AROUND), ring(*high, HOPPER_AROUND))]
+        self.triangles = len(wall)
+        write_stl(self.mesh, wall, "a bin over a funnel")
+        rim = ring(1.1 * outlet, -1.0, HOPPER_AROUND)
+        write_stl(self.mesh.with_name("outlet.stl"), [((0.0, 0.0, -1.0), b, a) for a, b in zip(rim, rim[1:])], "its outlet, down")
+        self.loose(1.0)
+        r, z, fall = self.radius + 1, self.top + 12, 10 + math.sqrt(2 * self.radius) * time + time**2 / 2
+        self.box = f"{-r!r} {r!r} {-r!r} {r!r} {-fall!r} {z!r}"
+        self.region = (f"region bin cylinder z 0 0 {self.radius - 0.6!r} {self.radius!r} {self.top!r} units box\n"
+                       f"region funnel cone z 0 0 {outlet - 0.6!r} {self.radius - 0.6!r} 0 {self.radius!r} units box\n"
+                       "region bed union 2 bin funnel")
+
+    def loose(self, gravity):
+        """Grains of two sizes that settle from a lattice and move."""
+        self.lattice, self.diameters, self.gravity = "sc 1.0 origin 0.5 0.5 0.5", "0.95+0.05*random(0,1,7)", gravity
+        self.neighbours, self.boundary = "delay 0 every 1 check yes", "f f f"
+
     def wall(self, style="wall/lsdcd"):
         if style == "wall/lsdcd":
             return f"fix wall all wall/lsdcd {self.law} mesh {self.mesh}" + \
-                " periodic" * (self.boundary[0] == "p")
+                " periodic" * (self.boundary[0] == "p") + self.turns
         # LAMMPS's own; its suffix must not choose the form.
         return f"suffix off\nfix wall all {style} {LAW} zplane 0.0 NULL\nsuffix on"
 
@@ -112,7 +170,12 @@ class Bed:
         return walls
 
     def processors(self):
-        return "processors {} {} 1".format(*self.split)
+        """Slices along a drum and, where the load moves, along the height of a hopper."""
+        return {"drum": "processors 1 * 1", "hopper": "processors 1 1 *"}.get(self.name) or "processors {} {} 1".format(*self.split)
+
+
+def ring(radius, z, segments):
+    return [(radius * math.cos(2 * math.pi * k / segments), radius * math.sin(2 * math.pi * k / segments), z) for k in range(segments)] + [(radius, 0.0, z)]
 
 
 def cells_of(triangles):

@@ -12,42 +12,19 @@ With a LAMMPS of one's own:
 --copies names a command that a script runs between runs, with the file to which it appends numbers of copies so far and their bytes, to the
 host and to the device: then rows have them for a step.
 """
-import math
+
 import re
 import statistics
 import sys
 
-from kokkos import WARM, WORDS, on_hosts, plugin_script
-from kokkos_beds import LAW
+from kokkos import FORCES, ORDERS, WARM, WORDS, first_script, on_hosts, plugin_script
+from kokkos_beds import GRAINS, LAW, Bed
 from lammps import bench, loop_ms
 from rows import say
-from stl import strip, write_stl
 
 DT = 1e-3
-AROUND, RINGS = 180, 28    # segments, and rings of each part
 
-SCRIPT = """\
-units           lj
-atom_style      sphere
-boundary        f f f
-lattice         sc 1.0 origin 0.5 0.5 0.5
-region          box block {box} units box
-create_box      1 box
-region          bin cylinder z 0 0 {inner!r} {radius!r} {top!r} units box
-region          funnel cone z 0 0 {low!r} {inner!r} 0 {radius!r} units box
-region          grains union 2 bin funnel
-create_atoms    1 region grains
-variable        diameter atom 0.95+0.05*random(0,1,7)
-set             group all diameter v_diameter
-set             group all density 1.9098593
-variable        count equal atoms
-print           "bed of $(v_count:%.0f) atoms"
-pair_style      gran/{law}
-pair_coeff      * *
-neighbor        0.1 bin
-neigh_modify    delay 0 every 1 check yes
-fix             move all nve/sphere
-fix             pull all gravity 1.0 vector 0 0 -1
+BED = """\
 timestep        {dt}
 thermo_style    custom step atoms
 thermo          100000000
@@ -57,37 +34,6 @@ variable        touching equal f_wall[7]
 WALL = "fix wall all wall/lsdcd {law} mesh wall.stl log brief"
 FLOW = "fix flow all massflow/lsdcd mesh outlet.stl every 100000 log brief"
 FEED = "fix feed all insert/lsdcd region above numberrate {rate!r} diam one 1.0 dens 1.9098593 every {every}"
-
-
-class Hopper:
-    """Of about `atoms` grains of diameter 1."""
-
-    def __init__(self, atoms, folder):
-        self.ranks, self.atoms = 1, int(atoms)
-        self.radius = (atoms / 7.5)**(1 / 3)
-        self.outlet = max(3.0, 0.12 * self.radius)
-        self.top = 3 * self.radius
-        levels = [(self.outlet + (self.radius - self.outlet) * k / RINGS, self.radius * k / RINGS) for k in range(RINGS + 1)]
-        levels += [(self.radius, self.radius + (self.top + 10 - self.radius) * k / RINGS) for k in range(1, RINGS + 1)]
-        wall = [t for low, high in zip(levels, levels[1:]) for t in strip(ring(*low), ring(*high))]
-        self.triangles = len(wall)
-        write_stl(folder / "wall.stl", wall, "a bin over a funnel")
-        rim = ring(1.1 * self.outlet, -1.0)
-        write_stl(folder / "outlet.stl", [((0.0, 0.0, -1.0), b, a) for a, b in zip(rim, rim[1:])], "its outlet, down")
-
-    def processors(self):
-        return "processors 1 1 *"
-
-    def script(self, steps):
-        """Grains that leave fall for so many steps in the box; what they have at the outlet is less than a fall through the radius gives."""
-        time = steps * DT
-        r, z, fall = self.radius + 1, self.top + 12, 10 + math.sqrt(2 * self.radius) * time + time**2 / 2
-        return SCRIPT.format(box=f"{-r!r} {r!r} {-r!r} {r!r} {-fall!r} {z!r}", inner=self.radius - 0.6, low=self.outlet - 0.6,
-                             radius=self.radius, top=self.top, above=self.top + 8, law=LAW, dt=DT)
-
-
-def ring(radius, z):
-    return [(radius * math.cos(2 * math.pi * k / AROUND), radius * math.sin(2 * math.pi * k / AROUND), z) for k in range(AROUND)] + [(radius, 0.0, z)]
 
 
 def feed(steps):
@@ -132,12 +78,13 @@ def measure_hopper(host, options, place):
     for atoms in options.atoms or ([1e6] if host.on_gpu else [20000]):
         work = place / f"{host.version}-{atoms:.0f}"
         work.mkdir(parents=True, exist_ok=True)
-        deck = Hopper(atoms, work)
         cases = variants(options.against)
         # The wall alone comes before each other case, and at the end.
         order = [name for other in cases for name in ({"wall": ()}.get(other, ("wall", other)))] + ["wall"]
         steps = options.settle + len(order) * (WARM + options.steps * (options.chunks + 3 * bool(options.copies)))
-        text = plugin_script(host, deck) + deck.script(steps) + WALL.format(law=LAW) + f"\nrun {options.settle}\n" + \
+        deck = Bed("hopper", int(atoms), 1, work, time=steps * DT)
+        text = plugin_script(host, deck) + first_script(deck) + FORCES.format(bed=deck, sort=ORDERS["sorted"], pair=GRAINS["hooke"][0]) + \
+            BED.format(dt=DT, top=deck.top, above=deck.top + 8) + WALL.format(law=LAW) + f"\nrun {options.settle}\n" + \
             'print "touching $(v_touching:%.0f)"\n' + "".join(measured(name, *cases[name], options) for name in order)
         output = host.run(text, work).output
         deck.atoms = int(re.search(r"^bed of (\d+) atoms", output, re.M).group(1))

@@ -157,18 +157,20 @@ def cost(rows):
 
 
 def scale(rows):
-    """Of a closed box full of grains on several GPUs."""
-    walls = sorted((r for r in rows if r["case"] == "closed box"), key=lambda r: (int(r["triangles"]), int(r["spheres"])))
+    """Of many grains on one GPU and on several, a scene and a law after the other."""
+    walls = sorted((r for r in rows if not r["case"].endswith(", no wall")), key=lambda r: (r["case"], int(r["triangles"]), int(r["spheres"])))
 
     def without(r):
-        return find(rows, case="closed box, no wall", triangles=r["triangles"], spheres=r["spheres"])
+        return find(rows, case=r["case"] + ", no wall", triangles=r["triangles"], spheres=r["spheres"])
 
     def line(r):
         alone, f = without(r), facts(r)
         each = int(r["spheres"]) / int(f["ranks"])
         more = 100 * (float(f["over_no_wall"]) - 1)
-        return (f"* {count(r['spheres'])} grains and {count(r['triangles'])} triangles on {f['ranks']} {r['device']}: {number(alone['median_ms'])} ms a step "
-                f"without the wall, {number(r['median_ms'])} with it, {abs(more):.1f} % {'more' if more > 0 else 'less'}; "
+        scene = r["case"][0].upper() + r["case"][1:]
+        return (f"* {scene}: {count(r['spheres'])} grains and {count(r['triangles'])} triangles on {f['ranks']} {r['device']}: {number(alone['median_ms'])} ms a step "
+                f"without the wall, {number(r['median_ms'])} with it, {abs(more):.1f} % {'more' if more > 0 else 'less'}, "
+                f"{number(each / float(r['median_ms']) / 1000)} million grain-steps a second and card; "
                 f"{int(f['mib']) / 1024:.3g} GiB of a card, {int(f['mib']) * 1024**2 / each:.0f} bytes a grain; "
                 f"grains made in {number(facts(alone)['make_s'])} s, the wall set up in {number(f['setup_s'])} s")
 
