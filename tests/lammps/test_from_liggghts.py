@@ -328,6 +328,8 @@ WRITTEN.update({
         "fix i all insert/rate/region seed 7 distributiontemplate d nparticles 90 massrate 0.1 insert_every 1000 region r\n",
         "diam poly 2 0.004 0.25 0.008 0.75 dens"),
     "ke counts grains that come": (ONE + FILL + "particles_in_region 90 region r\n", "compute_modify  thermo_temp dynamic/dof yes\n"),
+    "degrees of freedom by the names that every LAMMPS knows": (
+        "compute t all ke\ncompute_modify t dynamic yes extra 3\n", "compute_modify t dynamic/dof yes extra/dof 3\n"),
     "start in the next step is the default": (ONE + "run 90\n" + FILL + "start 91 particles_in_region 90 region r\n", "number 90 seed 7\n"),
     "start after a run up to a step": (ONE + "run 7\nrun 90 upto\n" + FILL + "start 91 particles_in_region 90 region r\n", "number 90 seed 7\n"),
     "all_in: a cylinder becomes smaller": (

@@ -245,6 +245,8 @@ class Same:
             text = " ".join([*w[:4], "cutoff", *w[4:]])
         if w[0] == "compute" and w[3] == "stress/atom" and w[4:5] != ["NULL"]:
             text = " ".join([*w[:4], "NULL", *w[4:]])
+        if w[0] == "compute_modify":    # newer versions of LAMMPS know these names alone
+            text = " ".join(f"{x}/dof" if k > 1 and x in ("extra", "dynamic") else x for k, x in enumerate(w))
         if line.words[0] == "thermo_style":
             for word in (x for x in w[2:] if x in GONE_THERMO or not self.is_here(x)):
                 text = re.sub(rf"\s{re.escape(word)}(?=\s|$)", "", text)
