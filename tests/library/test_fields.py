@@ -174,7 +174,7 @@ def test_page_has_the_keywords():
     syntax, rest = page.split("Examples\n\"\"\"", 1)
     body, defaults = rest.split("Default\n\"\"\"", 1)
     pages = body + "".join((ROOT / "doc" / name).read_text(encoding="utf-8") for name in (
-        "moving_walls.rst", "bodies.rst", "contact_laws.rst", "wall_output.rst", "deforming_walls.md", "wear.md"))
+        "moving_walls.rst", "bodies.rst", "contact_laws.rst", "wall_output.rst", "energy.md", "deforming_walls.md", "wear.md"))
     values = dict(re.findall(r"([a-z_]+)\s=\s([^,]+)", " ".join(defaults.split("\n.. _")[0].split())))
     for line in _lines.keyword_lines().decode().splitlines():
         name, takes, fallback = line.split("\t")
