@@ -507,7 +507,8 @@ def run_page(folder, path, within=None):
         if block.language == "lammps" and name:
             (folder / name[1]).write_text(block.text if within else STEPS.sub(
                 lambda found: found[1] + str(math.ceil(int(found[2]) / 50)), block.text))
-    shutil.copy(TUTORIAL / "stress.py", folder)
+    for file in ("tutorial/stress.py", "films/in.hopper", "clumps/rod.mol"):
+        shutil.copy(ROOT / "examples" / file, folder)
     text = "".join(block.text for block in page.blocks if block.language == "sh" and not why_not_run(block))
     done = shell(["bash", "-ec", text], folder, PATH=f"{pathlib.Path(lmp.LMP).parent}:{os.environ['PATH']}")
     fact(f"every command of {path} ends well", done.returncode == 0, done.stdout[-1500:] if done.returncode else "")
