@@ -12,6 +12,7 @@ import pathlib
 import re
 
 from docutils import nodes
+from docutils.utils.math.latex2mathml import tex2mathml
 from pygments import token
 from pygments.lexer import RegexLexer, bygroups
 from sphinx import addnodes
@@ -31,6 +32,7 @@ root_doc = "doc/index"
 include_patterns = ["*.md", ".github/*.md", "doc/**.md", "doc/**.rst", "examples/**.md", "potentials/**.md"]
 exclude_patterns = [".git", ".ci", "build*", "demo", "src", "tests", "bench", "kokkos"]
 myst_heading_anchors = 4    # with the names that the web view gives them
+html_math_renderer = "mathml"
 html_theme = "sphinx_rtd_theme"
 html_theme_options = {"navigation_depth": 2, "collapse_navigation": False}
 html_static_path = ["html"]
@@ -142,6 +144,15 @@ class ResolveLinks(SphinxPostTransform):
         return self.env.get_domain("std").anonlabels.get(f"{file}#{anchor}", (page, anchor))[1]
 
 
+def write_formula(writer, node):
+    """As MathML, which browsers draw by themselves: MathJax, which Sphinx takes, is fetched from the network."""
+    formula = tex2mathml(node.astext())
+    if isinstance(node, nodes.math_block):
+        formula = formula.replace("<math ", '<math display="block" ', 1)
+    writer.body.append(formula)
+    raise nodes.SkipNode
+
+
 def first_page(app, error):
     """index.html at the top shows the contents."""
     if not error and app.builder.format == "html":
@@ -155,5 +166,6 @@ def setup(app):
     app.add_lexer("lammps", Lammps)
     app.add_transform(FindLinks)
     app.add_post_transform(ResolveLinks)
+    app.add_html_math_renderer("mathml", (write_formula, None), (write_formula, None))
     app.connect("build-finished", first_page)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
