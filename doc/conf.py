@@ -57,6 +57,9 @@ class Lammps(RegexLexer):
 
 def path_of(node, docname):
     """Of a relative link: the path from the top of the repository, and the anchor."""
+    if node.get("refdomain") == "doc":    # MyST of 2023 or later has looked for the page
+        page = node["reftarget"]
+        return f"{page}{'.md' if (ROOT / f'{page}.md').is_file() else '.rst'}", node["reftargetid"] or ""
     path, _, anchor = node["reftarget"].partition("#")
     if not path:
         return None, anchor
@@ -140,6 +143,9 @@ class ResolveLinks(SphinxPostTransform):
 
     def place(self, page, anchor):
         """The id of a heading, which may differ from its anchor."""
+        slugs = self.env.metadata[page].get("myst_slugs", {})    # of MyST of 2023 or later
+        if anchor in slugs:
+            return slugs[anchor][1]
         file = os.path.relpath(self.env.doc2path(page), ROOT)
         return self.env.get_domain("std").anonlabels.get(f"{file}#{anchor}", (page, anchor))[1]
 
