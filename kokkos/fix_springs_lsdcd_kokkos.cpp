@@ -107,7 +107,15 @@ std::vector<double> FixSpringsLsdcdKokkos<DeviceType>::numbers_of(int i, int j)
 template <class DeviceType>
 void FixSpringsLsdcdKokkos<DeviceType>::set_arrays(int i)
 {
-  if (!on_device) FixSpringsLsdcd::set_arrays(i);
+  if (!on_device) partners.clear(i);
+  known_as[i] = 0;
+}
+
+template <class DeviceType>
+const tagint *FixSpringsLsdcdKokkos<DeviceType>::tags()
+{
+  atomKK->sync(Host, TAG_MASK);
+  return atom->tag;
 }
 
 template <class DeviceType>
@@ -139,6 +147,7 @@ int FixSpringsLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
     buffer.template modify<DeviceType>();
     buffer.template sync<LMPHostType>();
   }
+  if (between_runs) keep_names();    // partners know atoms by these since init()
   return size;
 }
 
@@ -157,6 +166,7 @@ void FixSpringsLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBu
   engine->grow(atom->nlocal);
   engine->unpack(n, to.template view<DeviceType>().data(),
                  buffer.template view<DeviceType>().data(), n_first, second);
+  if (between_runs) keep_names();
 }
 
 template <class DeviceType>

@@ -36,6 +36,7 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
   void collect() override;
   int largest_packed_size() const override;
   lsdcd::Partners &of_atoms() override;
+  const tagint *tags() override;
 
  private:
   friend class PairGranularLsdcdKokkos<DeviceType>;

@@ -43,7 +43,7 @@ std::string PairGranularLsdcdKokkos<DeviceType>::springs_style() const
 template <class DeviceType>
 void PairGranularLsdcdKokkos<DeviceType>::init_style()
 {
-  atomKK->sync(Host, RADIUS_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK);
+  atomKK->sync(Host, TAG_MASK | RADIUS_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK);
   full = lmp->kokkos->neighflag == FULL;
   PairGranularLsdcd::init_style();
   if (has_heat && !lsdcd::kOnCpu<DeviceType>)

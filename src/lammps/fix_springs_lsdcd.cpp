@@ -11,9 +11,11 @@
 #include "atom.h"
 #include "comm.h"
 #include "force.h"
+#include "memory.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <unordered_map>
 #include <utility>
 
 using namespace LAMMPS_NS;
@@ -21,8 +23,45 @@ using namespace FixConst;
 
 namespace {
 
+constexpr int kRoom = 64;    // numbers of an atom in a message, at first
 const char *const kSpringsOfPairs = "springs of pairs";
 const char *const kWithoutSprings = "give the pair style without the restart file's springs";
+
+// To the process that answers for an ID: an atom's IDs before and now, or the question of partner `at` of process `asks` for the
+// latter.
+struct NewName {
+  tagint before, now;
+  int asks, at;
+};
+
+// Answers the questions among n messages; see Comm::rendezvous().
+int answer(int n, char *messages, int &flag, int *&to, char *&answers, void *lmp)
+{
+  const auto *const all = reinterpret_cast<const NewName *>(messages);
+  std::unordered_map<tagint, tagint> now;
+  int asked = 0;
+  for (int k = 0; k < n; k++) {
+    if (all[k].asks < 0)
+      now[all[k].before] = all[k].now;
+    else
+      asked++;
+  }
+  Memory *const memory = static_cast<LAMMPS *>(lmp)->memory;
+  memory->create(to, asked, "lsdcd:answers");
+  auto *next = static_cast<NewName *>(
+      memory->smalloc(static_cast<bigint>(asked) * sizeof(NewName), "lsdcd:answers"));
+  answers = reinterpret_cast<char *>(next);
+  int *process = to;
+  for (int k = 0; k < n; k++) {
+    if (all[k].asks < 0) continue;
+    const auto found = now.find(all[k].before);
+    *process++ = all[k].asks;
+    *next = all[k];
+    next++->now = found == now.end() ? 0 : found->second;
+  }
+  flag = 2;    // answers are in memory of their own
+  return asked;
+}
 
 }    // namespace
 
@@ -33,7 +72,10 @@ FixSpringsLsdcd::FixSpringsLsdcd(LAMMPS *lmp, int narg, char **arg) :
   maxexchange_dynamic = 1;
   restart_global = restart_peratom = 1;
   comm_reverse = 1;
+  maxexchange = kRoom;
   FixSpringsLsdcd::grow_arrays(atom->nmax);
+  known_as.assign(atom->tag, atom->tag + atom->nlocal);
+  known_as.resize(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
 }
@@ -131,16 +173,23 @@ void FixSpringsLsdcd::tell_owners()
 
 // An atom that arrives may leave again in the next direction: room for the largest of all processes. It is doubled, as LAMMPS with
 // Kokkos makes its whole buffer half as large again each time that there is more of it.
-void FixSpringsLsdcd::pre_exchange()
+void FixSpringsLsdcd::bring_to_atoms()
 {
   if (!keeps()) return;
   if (in_pairs) collect();
   in_pairs = false;
   int largest = largest_packed_size();
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
-  int room = std::max(64, maxexchange);
-  while (room < 1 + largest) room *= 2;
-  maxexchange = room;
+  while (maxexchange < 2 + largest) maxexchange *= 2;
+}
+
+void FixSpringsLsdcd::pre_exchange()
+{
+  if (in_pairs && atom->nlocal != own)
+    fatal_here("a fix before pair_style granular/lsdcd in the script has created or deleted atoms, "
+               "and springs would go to others: write pair_style before such fixes");
+  between_runs = false;
+  bring_to_atoms();
 }
 
 void FixSpringsLsdcd::post_neighbor()
@@ -148,10 +197,59 @@ void FixSpringsLsdcd::post_neighbor()
   new_list = true;
 }
 
-// Atoms may be deleted between runs.
+// Atoms may be deleted between runs, and others get their IDs: delete_atoms gives all of them new ones.
 void FixSpringsLsdcd::post_run()
 {
-  pre_exchange();
+  bring_to_atoms();
+  between_runs = true;
+  keep_names();
+}
+
+void FixSpringsLsdcd::init()
+{
+  if (!between_runs) return;
+  if (keeps()) rename_partners();
+  keep_names();
+}
+
+void FixSpringsLsdcd::keep_names()
+{
+  const tagint *const tag = tags();
+  known_as.assign(tag, tag + atom->nlocal);
+  known_as.resize(atom->nmax);
+}
+
+// Partners that are gone get the name 0, which no atom has.
+void FixSpringsLsdcd::rename_partners()
+{
+  const tagint *const tag = tags();
+  int renamed = !std::equal(tag, tag + atom->nlocal, known_as.begin());
+  MPI_Allreduce(MPI_IN_PLACE, &renamed, 1, MPI_INT, MPI_MAX, world);
+  if (!renamed) return;
+  lsdcd::Partners &all = of_atoms();
+  std::vector<NewName> messages;
+  std::vector<int> to;
+  std::vector<std::pair<int, int>> asked;    // an atom, and which of its partners
+  const auto send = [&](const NewName &message) {
+    messages.push_back(message);
+    to.push_back(static_cast<int>(message.before % comm->nprocs));
+  };
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (known_as[i] > 0) send({known_as[i], tag[i], -1, 0});
+    for (int k = 0; k < all.count(i); k++) {
+      send({static_cast<tagint>(all.name(i, k)), 0, comm->me, static_cast<int>(asked.size())});
+      asked.emplace_back(i, k);
+    }
+  }
+  char *answers = nullptr;
+  const int n = comm->rendezvous(1, static_cast<int>(messages.size()),
+                                 reinterpret_cast<char *>(messages.data()), sizeof(NewName), 0,
+                                 to.data(), answer, 0, answers, sizeof(NewName), lmp);
+  for (int k = 0; k < n; k++) {
+    const NewName &name = reinterpret_cast<const NewName *>(answers)[k];
+    all.rename(asked[name.at].first, asked[name.at].second, name.now);
+  }
+  memory->sfree(answers);
 }
 
 int FixSpringsLsdcd::pack_reverse_comm_size(int n, int first)
@@ -178,33 +276,40 @@ void FixSpringsLsdcd::unpack_reverse_comm(int n, int *atoms, double *buf)
 void FixSpringsLsdcd::grow_arrays(int nmax)
 {
   partners.grow(nmax);
+  known_as.resize(nmax);
 }
 
 void FixSpringsLsdcd::copy_arrays(int i, int j, int /*delflag*/)
 {
   of_atoms().copy(i, j);
+  known_as[j] = known_as[i];
 }
 
 void FixSpringsLsdcd::set_arrays(int i)
 {
   partners.clear(i);
+  known_as[i] = 0;
 }
 
 int FixSpringsLsdcd::pack_exchange(int i, double *buf)
 {
-  return keeps() ? of_atoms().pack(i, buf) : 0;
+  int n = 0;
+  if (between_runs) buf[n++] = static_cast<double>(known_as[i]);
+  return n + (keeps() ? of_atoms().pack(i, buf + n) : 0);
 }
 
 int FixSpringsLsdcd::unpack_exchange(int i, double *buf)
 {
-  return keeps() ? of_atoms().unpack(i, buf) : 0;
+  int n = 0;
+  if (between_runs) known_as[i] = static_cast<tagint>(buf[n++]);
+  return n + (keeps() ? of_atoms().unpack(i, buf + n) : 0);
 }
 
 // ---- restart files -----------------------------------------------------------------------
 
 void FixSpringsLsdcd::write_restart(FILE *file)
 {
-  pre_exchange();
+  bring_to_atoms();
   lsdcd::MpiHost host(world);
   lsdcd::BookedEnergy everywhere = energy;
   lsdcd::sum_over_processes(host, &everywhere, 1);
@@ -238,23 +343,24 @@ void FixSpringsLsdcd::restart(char *buffer)
   }
 }
 
-// In restart files the first number is the size, by which other fixes skip it. Pairs have no KeptForces there: the setup of the next
-// run makes them.
+// In restart files the first number is the size, by which other fixes skip it, and the second one the atom's ID. Pairs have no
+// KeptForces there: the setup of the next run makes them.
 int FixSpringsLsdcd::size_restart(int i)
 {
-  return 1 + of_atoms().packed_size(i, law_width);
+  return 2 + of_atoms().packed_size(i, law_width);
 }
 
 int FixSpringsLsdcd::maxsize_restart()
 {
-  int largest = 1 + of_atoms().largest_packed_size();
+  int largest = 2 + of_atoms().largest_packed_size();
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
   return largest;
 }
 
 int FixSpringsLsdcd::pack_restart(int i, double *buf)
 {
-  buf[0] = 1 + of_atoms().pack(i, buf + 1, law_width);
+  buf[0] = 2 + of_atoms().pack(i, buf + 2, law_width);
+  buf[1] = static_cast<double>(atom->tag[i]);
   return static_cast<int>(buf[0]);
 }
 
@@ -262,11 +368,12 @@ void FixSpringsLsdcd::unpack_restart(int i, int nth)
 {
   const double *extra = atom->extra[i];
   for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
-  const int size = static_cast<int>(extra[0]) - 1;
-  if (!from_file || !partners.is_sound(extra + 1, size))
+  const int size = static_cast<int>(extra[0]) - 2;
+  if (!from_file || !partners.is_sound(extra + 2, size))
     throw lsdcd::InputError("the springs of atom " + std::to_string(atom->tag[i]) +
                             " in the restart file are damaged: " + kWithoutSprings);
-  of_atoms().unpack(i, extra + 1);
+  known_as[i] = static_cast<tagint>(extra[1]);
+  of_atoms().unpack(i, extra + 2);
 }
 
 double FixSpringsLsdcd::memory_usage()

@@ -6,6 +6,7 @@
 #ifndef LMP_FIX_SPRINGS_LSDCD_H
 #define LMP_FIX_SPRINGS_LSDCD_H
 
+#include "atom.h"
 #include "fix.h"
 
 #include "engine/results/booked_energy.h"
@@ -24,6 +25,7 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   ~FixSpringsLsdcd() override;
 
   int setmask() override;
+  void init() override;
   void setup_pre_exchange() override { pre_exchange(); }
   void setup_post_neighbor() override { post_neighbor(); }
   void pre_exchange() override;
@@ -69,6 +71,10 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   // Brings what the pairs of the last step keep to their atoms.
   virtual void collect();
   void tell_owners();
+  // IDs of atoms on the CPU.
+  virtual const tagint *tags() { return atom->tag; }
+  // Keeps the IDs that atoms have, for rename_partners().
+  void keep_names();
   virtual int largest_packed_size() const { return partners.largest_packed_size(); }
   // The partners, which may be elsewhere, for atoms that LAMMPS moves one by one and for restart files.
   virtual lsdcd::Partners &of_atoms() { return partners; }
@@ -90,6 +96,13 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   bool from_file =
       false;    // partners are those of a restart file, whose laws have not been checked
   std::function<unsigned(int, int)> flips;
+  // Commands between runs may give atoms other IDs: that under which partners know an atom, 0: it is new.
+  bool between_runs = true;
+  std::vector<tagint> known_as;
+
+ private:
+  void bring_to_atoms();
+  void rename_partners();
 };
 
 }    // namespace LAMMPS_NS

@@ -59,9 +59,13 @@ PairGranularLsdcd::PairGranularLsdcd(LAMMPS *lmp) :
   single_extra = kSingleNumbers;
   svector = new double[kSingleNumbers];
 
-  // A place before the fixes of the script that delete or add atoms.
-  springs_id = "SPRINGS_LSDCD_" + std::to_string(instance_me);
-  dummy_id = springs_id + "_DUMMY";
+  // A place before the fixes of the script that delete or add atoms. A restart file finds its springs by this ID, whatever pair styles a
+  // script has had before.
+  int k = 0;
+  do {
+    springs_id = "SPRINGS_LSDCD_" + std::to_string(k++);
+    dummy_id = springs_id + "_DUMMY";
+  } while (lsdcd::host_fix(*modify, springs_id) || lsdcd::host_fix(*modify, dummy_id));
   modify->add_fix(dummy_id + " all DUMMY");
 }
 
@@ -255,8 +259,23 @@ void PairGranularLsdcd::set_springs()
   else if (springs && lsdcd::host_fix(*modify, springs_id) != springs)
     fatal("fix " + springs_id + ", which keeps the springs of pairs, is gone: do not unfix it");
   if (!springs) return;
+  check_order();
   springs->set_laws(width, books, kinds,
                     [this](int i, int j) { return flips_of[law_index(i, j)]; });
+}
+
+// Before lists are made anew the springs go from pairs to atoms, whose indices must be those of the last step.
+void PairGranularLsdcd::check_order() const
+{
+  for (Fix *fix : lsdcd::host_fixes(*modify)) {
+    if (fix == springs) return;
+    if (!(fix->setmask() & FixConst::PRE_EXCHANGE)) continue;
+    for (const char *style : {"evaporate", "deposit", "pour", "insert/lsdcd", "massflow/lsdcd"})
+      if (std::strncmp(fix->style, style, std::strlen(style)) == 0)
+        fatal("fix " + std::string(fix->id) + " " + style +
+              " creates or deletes atoms before springs are with theirs, and they would go to "
+              "others: write pair_style before that fix");
+  }
 }
 
 // A grain of fix freeze does not move; damping of an atom in a rigid body reads the mass of the body.

@@ -64,6 +64,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   void find_radii();
   void find_fixes();
   void set_springs();
+  void check_order() const;
   double reach(int i, int j, double radius, double other) const;
   lsdcd::PairJob job();
   void tell_laws();

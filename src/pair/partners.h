@@ -39,6 +39,7 @@ class Partners {
   }
   int count(int i) const { return count_[i]; }
   Name name(int i, int k) const { return name_[first_[i] + k]; }
+  void rename(int i, int k, Name name) { name_[first_[i] + k] = name; }
   const Real *numbers(int i, int k) const { return numbers_.data() + width_ * (first_[i] + k); }
 
   // Takes over what the pairs of a list keep, for the first n grains, both of each pair. `name(i)`: of a grain.

@@ -163,20 +163,83 @@ def test_restart(folder):
         lmp.run_well(settings(newton) + "read_restart r\n" + ours("* * " + FULL) + f"\nfix i all nve/sphere\ntimestep {DT}\n" +
                      dump("continued", 50) + "run 200\n", folder, 2)
         at_most(f"newton {newton}: restart", lmp.largest_difference(lmp.read_dump(folder / "two"), lmp.read_dump(folder / "continued")), 0)
+        lmp.run_well(settings(newton) + "pair_style zero 1\nclear\n" + settings(newton) + "read_restart r\npair_style zero 1\n" +
+                     ours("* * " + FULL) + f"\nfix i all nve/sphere\ntimestep {DT}\n" + dump("later", 50) + "run 200\n", folder, 2)
+        at_most(f"newton {newton}: restart after other pair styles",
+                lmp.largest_difference(lmp.read_dump(folder / "two"), lmp.read_dump(folder / "later")), 0)
     lmp.refused("springs of another law", settings("on") + "read_restart r\n" + ours("* * " + GRANULAR) + "\nrun 0\n", folder,
                 "springs of other contact laws")
     text = lmp.run_well(settings("on") + "read_restart r\n" + ours("* * hooke 1e4 1 tangential linear_nohistory 0 0") + "\nrun 0\n", folder)
     fact("a law without springs: said", "Unused restart file" in text or "unused" in text.lower(), text[-300:])
 
 
+def by_mass(path):
+    """The rows of a dump's last step by the second column, a mass that no other grain has, without IDs."""
+    steps = lmp.read_dump(path)
+    return {row[0]: row[1:] for row in steps[max(steps)].values()}
+
+
+@pytest.mark.parametrize("newton, ranks", [("off", 1), ("on", 4)])
+def test_new_ids(folder, newton, ranks):
+    """Grains that get other IDs between runs, as by delete_atoms, keep their springs: they go on as with their old IDs."""
+    law = f"{ours('* * ' + FULL)}\nfix i all nve/sphere\ntimestep {DT}\n" + dump("out", 100).replace("out id", "out id mass")
+
+    def end(compress, commands=""):
+        lmp.run_well(settings(newton) + f"read_data grains.data\n{law}run 200\ngroup gone id 3:200:9\ndelete_atoms group gone compress {compress}\n"
+                     f"{commands}run 100\n", folder, ranks)
+        return {0: by_mass(folder / "out")}
+
+    kept = end("no")
+    fact("grains", len(kept[0]) == SIDE**3 - 22, str(len(kept[0])))
+    at_most("new IDs", lmp.largest_difference(kept, end("yes")), 1e-10)
+    at_most("new IDs, and a restart", lmp.largest_difference(kept, end("yes", "write_restart r\nclear\n" + settings(newton) + "read_restart r\n" + law)), 1e-10)
+    reset = "reset_atoms id\n" if lmp.ON_HOST else "reset_atom_ids\n"
+    restarted = end("no", "write_restart r\nclear\n" + settings(newton) + "read_restart r\n" + law + reset)
+    at_most("new IDs after a restart", lmp.largest_difference(kept, restarted), 1e-10)
+
+
+def test_id_of_another(folder):
+    """A grain that gets the ID and the place of one that was deleted does not get its springs."""
+    lmp.run_well(settings() + f"""\
+region b block 0 4 0 4 0 4
+create_box 1 b
+create_atoms 1 single 1 2 2
+create_atoms 1 single 1.98 2 2
+set group all diameter 1 density 1
+set group all omega 0 0 1
+{ours("* * law hooke/history 1e4 5e3 0 0 2 0")}
+group second id 2
+fix i all nve/noforce
+timestep 1e-4
+run 1000
+write_dump all custom first {COLUMNS}
+delete_atoms group second
+create_atoms 1 single 1.98 2 2
+set atom 2 diameter 1 density 1
+run 0
+write_dump all custom second {COLUMNS}
+""", folder)
+    friction = [lmp.read_dump(folder / name)[1000][1][10] for name in ("first", "second")]
+    fact("friction of the first contact", abs(friction[0]) > 1, str(friction))
+    at_most("friction of the new contact", abs(friction[1]), 0)
+
+
+def test_order_of_fixes(folder):
+    """Fixes that create or delete atoms stand behind the pair style, as the springs go to atoms before."""
+    for fix in ("all evaporate 10 1 everywhere 4711", "all deposit 1 1 10 4711 region somewhere near 0.1"):
+        first = f"region everywhere block INF INF INF INF INF INF\nregion somewhere block 1 5 1 5 1 5\nfix early {fix}\n"
+        text = script(first + ours("* * " + GRANULAR))
+        lmp.refused(fix, text, folder, "fix early", "write pair_style before")
+
+
 def test_damaged_restart(folder):
     """The count of an atom's partners in a restart file is not that of its numbers: the atom is named."""
     lmp.run_well(script(ours("* * " + GRANULAR), steps=100) + "write_restart r\n", folder)
     data = (folder / "r").read_bytes()
-    one_partner = struct.pack("<2d", 6, 1)    # of an atom: 6 numbers, a count, a partner's tag and a shear displacement
-    at = data.find(one_partner)
+    # Of an atom: 7 numbers, its ID, a count, a partner's ID and a shear displacement.
+    at = max(data.find(struct.pack("<3d", 7, tag, 1)) for tag in range(SIDE**3 + 1))
     fact("an atom has one partner", at > 0, str(at))
-    (folder / "r").write_bytes(data[:at] + struct.pack("<2d", 6, 2) + data[at + len(one_partner):])
+    (folder / "r").write_bytes(data[:at + 16] + struct.pack("<d", 2) + data[at + 24:])
     lmp.refused("damaged", settings() + "read_restart r\n" + ours("* * " + GRANULAR) + "\nrun 0\n", folder, "in the restart file are damaged")
 
 

@@ -72,6 +72,13 @@ timestep """).replace(COLUMNS, COLUMNS + " c_t[1] c_t[2]")
     fact("grains touch", sum(abs(row[9]) > 1e-3 for row in last.values()) > 20, "")
 
 
+def test_new_ids(folder):
+    """Grains that get other IDs between runs keep their springs, also where they go into a restart file before the next run."""
+    text = script(ours("* * " + FULL)) + "group gone id 3:200:9\ndelete_atoms group gone\n"
+    as_plain("new IDs", folder, text + "run 100\n")
+    as_plain("new IDs and a restart file", folder, text + "write_restart r\nrun 100\n")
+
+
 @pytest.mark.parametrize("newton", ["off", "on"])
 def test_ranks(folder, newton):
     """What pairs keep goes with the grains: lists are made anew in each tenth step, and grains go to other processes."""
