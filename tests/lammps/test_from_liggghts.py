@@ -330,6 +330,9 @@ WRITTEN.update({
     "ke counts grains that come": (ONE + FILL + "particles_in_region 90 region r\n", "compute_modify  thermo_temp dynamic/dof yes\n"),
     "degrees of freedom by the names that every LAMMPS knows": (
         "compute t all ke\ncompute_modify t dynamic yes extra 3\n", "compute_modify t dynamic/dof yes extra/dof 3\n"),
+    "rows of contacts in a reduction": (
+        "compute p all pair/gran/local id force_normal\ncompute r all reduce sum c_p[4]\n",
+        "want the words inputs local at the end\ncompute r all reduce sum c_p[1]\n"),
     "start in the next step is the default": (ONE + "run 90\n" + FILL + "start 91 particles_in_region 90 region r\n", "number 90 seed 7\n"),
     "start after a run up to a step": (ONE + "run 7\nrun 90 upto\n" + FILL + "start 91 particles_in_region 90 region r\n", "number 90 seed 7\n"),
     "all_in: a cylinder becomes smaller": (

@@ -247,6 +247,8 @@ class Same:
             text = " ".join([*w[:4], "NULL", *w[4:]])
         if w[0] == "compute_modify":    # newer versions of LAMMPS know these names alone
             text = " ".join(f"{x}/dof" if k > 1 and x in ("extra", "dynamic") else x for k, x in enumerate(w))
+        if w[0] == "compute" and w[3].startswith("reduce") and self.rows.keys() & set(re.findall(r"\bc_(\w+)\[", text)):
+            self.note(line, "these are rows of contacts: newer versions of LAMMPS, as Debian 13's, want the words inputs local at the end")
         if line.words[0] == "thermo_style":
             for word in (x for x in w[2:] if x in GONE_THERMO or not self.is_here(x)):
                 text = re.sub(rf"\s{re.escape(word)}(?=\s|$)", "", text)
