@@ -20,25 +20,58 @@ struct NearFeatures {
     Vec3 normal, point;
     Vec3 lo, hi;    // of the box around its faces
     std::uint32_t rim_end, inner_end;
-    std::uint32_t
-        likely;    // of its inner faces, the one that had the minimum; it changes the time alone
+    // The face that had the minimum, and its place if it is one of the rim; they change the time alone.
+    std::uint32_t likely, likely_rim;
   };
   // A face with an edge or vertex that is listed. Numbers are places in the lists below; that of one that is not in them is the
   // size of its list.
   struct RimFace {
     std::uint32_t primitive;    // of the tree
+    std::uint32_t plane;
     std::uint32_t edge[3], vertex[3];
+  };
+  // A face of the rim, and the side or corner of it that an edge or vertex is.
+  struct PartOfFace {
+    std::uint32_t rim, k;
+  };
+  // Those of all edges, or of all vertices that can have a contact, one after the other.
+  struct FacesAt {
+    std::vector<PartOfFace> parts;
+    std::vector<std::uint32_t> end;    // of each one's
+
+    std::size_t begin_of(std::size_t i) const { return i > 0 ? end[i - 1] : 0; }
+    void clear()
+    {
+      parts.clear();
+      end.clear();
+    }
+    std::size_t bytes() const
+    {
+      return parts.capacity() * sizeof(PartOfFace) + end.capacity() * sizeof(std::uint32_t);
+    }
   };
   struct Edge {
     std::uint32_t edge, vertex[2];    // of the mesh, and places in the list of vertices
+    bool is_likely;    // it was a contact when it was last looked at; it changes the time alone
   };
   std::vector<Plane> planes;
   std::vector<RimFace> rim;
   std::vector<std::uint32_t> inner;    // other faces, primitives of the tree
   std::vector<Edge> edges;
-  std::vector<std::uint32_t> vertices;    // of the mesh
-  std::vector<std::uint32_t> bare;        // primitives that are edges and vertices without a face
+  // Of the mesh: the first n_whole can have a contact, others are only ends of edges.
+  std::vector<std::uint32_t> vertices;
+  std::size_t n_whole = 0;
+  FacesAt faces_at_edge, faces_at_vertex;
+  std::vector<std::uint32_t> bare;    // primitives that are edges and vertices without a face
 
+  std::uint32_t rim_begin(std::size_t plane) const
+  {
+    return plane > 0 ? planes[plane - 1].rim_end : 0;
+  }
+  std::uint32_t inner_begin(std::size_t plane) const
+  {
+    return plane > 0 ? planes[plane - 1].inner_end : 0;
+  }
   std::size_t n_faces() const { return rim.size() + inner.size(); }
   void clear()
   {
@@ -47,12 +80,15 @@ struct NearFeatures {
     inner.clear();
     edges.clear();
     vertices.clear();
+    n_whole = 0;
+    faces_at_edge.clear();
+    faces_at_vertex.clear();
     bare.clear();
   }
   std::size_t bytes() const
   {
     return planes.capacity() * sizeof(Plane) + rim.capacity() * sizeof(RimFace) +
-           edges.capacity() * sizeof(Edge) +
+           edges.capacity() * sizeof(Edge) + faces_at_edge.bytes() + faces_at_vertex.bytes() +
            (inner.capacity() + vertices.capacity() + bare.capacity()) * sizeof(std::uint32_t);
   }
 };

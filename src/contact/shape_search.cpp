@@ -51,12 +51,47 @@ ShapeMinimum sure(const ShapeMinimum &m)
   return m;
 }
 
-// Can a point be within the grain? By its box, and an ellipsoid as a ball.
-bool may_hold(const Superellipsoid &s, const Vec3 &y)
+// Returns a point of the grain's frame over these lengths.
+Vec3 scaled(const Vec3 &y, const Vec3 &inverse)
 {
-  const Vec3 u = {y.x / s.half.x, y.y / s.half.y, y.z / s.half.z};
+  return {y.x * inverse.x, y.y * inverse.y, y.z * inverse.z};
+}
+Vec3 inverse_of(const Vec3 &half)
+{
+  return {1 / half.x, 1 / half.y, 1 / half.z};
+}
+
+// Can a point, over the half-axes, be within the grain? By its box, and an ellipsoid as a ball.
+bool may_hold(const Superellipsoid &s, const Vec3 &u)
+{
   if (s.is_ellipsoid()) return norm_sq(u) < 1;
   return (std::fabs(u.x) < 1) & (std::fabs(u.y) < 1) & (std::fabs(u.z) < 1);
+}
+
+// Returns half the sides of a box around the grain with the axes of the mesh: of an ellipsoid the least one.
+Vec3 half_box(const PlacedGrain &grain)
+{
+  const Superellipsoid &s = grain.shape;
+  Vec3 half;
+  for (int k = 0; k < 3; k++) {
+    const Vec3 &row = grain.row[k];
+    const Vec3 part = {row.x * s.half.x, row.y * s.half.y, row.z * s.half.z};
+    half[k] = s.is_ellipsoid()
+                  ? norm(part)
+                  : smaller(std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z), s.farthest);
+  }
+  return half;
+}
+
+// Is a box about a point, with half its sides, outside the box around the faces of a plane?
+bool is_outside(const NearFeatures::Plane &plane, const Vec3 &at, const Vec3 &half)
+{
+  const auto is_apart = [&](Real at, Real half, Real lo, Real hi) {
+    return (at < lo - half) | (at > hi + half);
+  };
+  return is_apart(at.x, half.x, plane.lo.x, plane.hi.x) |
+         is_apart(at.y, half.y, plane.lo.y, plane.hi.y) |
+         is_apart(at.z, half.z, plane.lo.z, plane.hi.z);
 }
 
 // May the gauge be less than 1 on a segment, of a point and the way to its other end over the half-axes? It is convex, and no less than its
@@ -92,14 +127,45 @@ bool may_be_less_than_one(const Superellipsoid &s, const Vec3 &u, const Vec3 &al
   return true;
 }
 
-// Returns the place of a number in an ascending list, its size where it is not there.
-template <class List, class NumberOf>
-std::uint32_t place_in(const List &list, std::uint32_t number, const NumberOf &number_of)
+// Where a segment, by its ends over the half-axes, comes nearest to the centre of an ellipsoid.
+struct NearestToCentre {
+  Vec3 along;
+  Real at;    // the share of the way from the first end
+  bool is_in_ellipsoid;
+
+  NearestToCentre(const Vec3 &u, const Vec3 &v) :
+      along(v - u), at(smaller(larger(-dot(u, along) / norm_sq(along), 0), 1)),
+      is_in_ellipsoid(norm_sq(u + at * along) < 1)
+  {
+  }
+};
+
+// Is a segment, by its ends over the half-axes, on the outer side of one of the faces of the box around the grain?
+bool is_beside_box(const Vec3 &u, const Vec3 &v)
 {
+  const auto is_beside = [](Real a, Real b) { return (smaller(a, b) >= 1) | (larger(a, b) <= -1); };
+  return is_beside(u.x, v.x) | is_beside(u.y, v.y) | is_beside(u.z, v.z);
+}
+
+// Can a segment cut the grain, by its ends over the half-axes? A grain has the ellipsoid of its half-axes in it.
+bool may_cut_scaled(const Superellipsoid &s, const Vec3 &u, const Vec3 &v)
+{
+  if (is_beside_box(u, v)) return false;
+  const NearestToCentre nearest(u, v);
+  return nearest.is_in_ellipsoid ||
+         (!s.is_ellipsoid() && may_be_less_than_one(s, u, nearest.along, nearest.at));
+}
+
+// Returns the place of a number in the ascending part of a list between two places, the size of the list where it is not there.
+template <class List, class NumberOf>
+std::uint32_t place_in(const List &list, std::size_t from, std::size_t to, std::uint32_t number,
+                       const NumberOf &number_of)
+{
+  const auto place = [&](std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
   const auto at =
-      std::lower_bound(list.begin(), list.end(), number,
+      std::lower_bound(place(from), place(to), number,
                        [&](const auto &a, std::uint32_t b) { return number_of(a) < b; });
-  return static_cast<std::uint32_t>(at != list.end() && number_of(*at) == number
+  return static_cast<std::uint32_t>(at != place(to) && number_of(*at) == number
                                         ? at - list.begin()
                                         : static_cast<std::ptrdiff_t>(list.size()));
 }
@@ -135,17 +201,8 @@ Real sure_distance(const Superellipsoid &s, const Vec3 &y)
 // point of that on, the surface is the rest of the ray away at most.
 bool may_cut(const Superellipsoid &s, const Vec3 &from, const Vec3 &to, Real depth)
 {
-  const Vec3 half = (1 - depth / s.farthest) * s.half;
-  const auto is_beside = [](Real a, Real b, Real half) {
-    return (smaller(a, b) >= half) | (larger(a, b) <= -half);
-  };
-  if (is_beside(from.x, to.x, half.x) | is_beside(from.y, to.y, half.y) |
-      is_beside(from.z, to.z, half.z))
-    return false;
-  const Vec3 u = {from.x / half.x, from.y / half.y, from.z / half.z};
-  const Vec3 along = {to.x / half.x - u.x, to.y / half.y - u.y, to.z / half.z - u.z};
-  const Real at = smaller(larger(-dot(u, along) / norm_sq(along), 0), 1);
-  return s.is_ellipsoid() ? norm_sq(u + at * along) < 1 : may_be_less_than_one(s, u, along, at);
+  const Vec3 inverse = inverse_of((1 - depth / s.farthest) * s.half);
+  return may_cut_scaled(s, scaled(from, inverse), scaled(to, inverse));
 }
 
 void ShapeSearch::contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found)
@@ -212,6 +269,7 @@ void ShapeSearch::find_near(const PlacedGrain &grain, Real radius, NearFeatures 
                                  {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL},
                                  0,
                                  0,
+                                 kNoPrimitive,
                                  kNoPrimitive};
     const auto take_in = [&](std::uint32_t face) {
       plane.likely = face;
@@ -223,14 +281,44 @@ void ShapeSearch::find_near(const PlacedGrain &grain, Real radius, NearFeatures 
         }
       }
     };
-    while (rim < near.rim.size() && patches_[near.rim[rim].primitive] == patch)
+    while (rim < near.rim.size() && patches_[near.rim[rim].primitive] == patch) {
+      plane.likely_rim = rim;
+      near.rim[rim].plane = static_cast<std::uint32_t>(near.planes.size());
       take_in(near.rim[rim++].primitive);
-    while (inner < near.inner.size() && patches_[near.inner[inner]] == patch)
+    }
+    while (inner < near.inner.size() && patches_[near.inner[inner]] == patch) {
+      plane.likely_rim = kNoPrimitive;
       take_in(near.inner[inner++]);
+    }
     plane.rim_end = rim;
     plane.inner_end = inner;
     near.planes.push_back(plane);
   }
+  list_faces_at(near);
+}
+
+// Lists the faces at each edge and each vertex that can have a contact.
+void ShapeSearch::list_faces_at(NearFeatures &near) const
+{
+  const auto list = [&](std::size_t n, NearFeatures::FacesAt &at, const auto &number) {
+    at.end.assign(n + 1, 0);
+    const auto each = [&](const auto &part) {
+      for (std::uint32_t r = 0; r < near.rim.size(); r++)
+        for (std::uint32_t k = 0; k < 3; k++)
+          if (number(near.rim[r], k) < n) part(number(near.rim[r], k), r, k);
+    };
+    each([&](std::uint32_t i, std::uint32_t, std::uint32_t) { at.end[i + 1]++; });
+    std::partial_sum(at.end.begin(), at.end.end(), at.end.begin());
+    at.parts.resize(at.end.back());
+    each([&](std::uint32_t i, std::uint32_t r, std::uint32_t k) {
+      at.parts[at.end[i]++] = {r, k};
+    });
+    at.end.pop_back();
+  };
+  list(near.edges.size(), near.faces_at_edge,
+       [](const NearFeatures::RimFace &face, std::uint32_t k) { return face.edge[k]; });
+  list(near.n_whole, near.faces_at_vertex,
+       [](const NearFeatures::RimFace &face, std::uint32_t k) { return face.vertex[k]; });
 }
 
 // Lists those edges of numbers_, and those vertices, that are whole and not within a flat patch.
@@ -248,7 +336,7 @@ void ShapeSearch::list_edges(NearFeatures &near)
     const int n_faces = view_.edge_first[e + 1] - view_.edge_first[e];
     if (static_cast<int>(next - i) < n_faces) continue;
     whole_.push_back(e);
-    if (!is_flat(e)) near.edges.push_back({e, {0, 0}});
+    if (!is_flat(e)) near.edges.push_back({e, {0, 0}, false});
   }
   const auto is_left_out = [&](std::uint32_t v) {
     const int *begin = view_.vertex_edge + view_.vertex_first[v],
@@ -263,19 +351,32 @@ void ShapeSearch::list_edges(NearFeatures &near)
   };
   near.vertices.erase(std::remove_if(near.vertices.begin(), near.vertices.end(), is_left_out),
                       near.vertices.end());
+  near.n_whole = near.vertices.size();
+  const auto place_of = [&](std::uint32_t v) {
+    const std::uint32_t of_whole = place_in(near.vertices, 0, near.n_whole, v, SameNumber());
+    if (of_whole < near.vertices.size()) return of_whole;
+    return place_in(near.vertices, near.n_whole, near.vertices.size(), v, SameNumber());
+  };
+  numbers_.clear();
+  for (const NearFeatures::Edge &edge : near.edges)
+    for (int k = 0; k < 2; k++) numbers_.push_back(view_.edges[2 * edge.edge + k]);
+  std::sort(numbers_.begin(), numbers_.end());
+  numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+  for (const std::uint32_t v : numbers_)
+    if (place_of(v) == near.vertices.size()) near.vertices.push_back(v);
   for (NearFeatures::Edge &edge : near.edges)
-    for (int k = 0; k < 2; k++)
-      edge.vertex[k] = place_in(near.vertices, view_.edges[2 * edge.edge + k], SameNumber());
+    for (int k = 0; k < 2; k++) edge.vertex[k] = place_of(view_.edges[2 * edge.edge + k]);
 }
 
 void ShapeSearch::list_face(NearFeatures &near, std::uint32_t primitive)
 {
   const TreePrimitive &p = view_.primitives[primitive];
-  NearFeatures::RimFace face = {primitive, {0, 0, 0}, {0, 0, 0}};
+  NearFeatures::RimFace face = {primitive, 0, {0, 0, 0}, {0, 0, 0}};
   bool has_any = false;
   for (int k = 0; k < 3; k++) {
-    face.edge[k] = place_in(near.edges, p.edge[k], [](const auto &e) { return e.edge; });
-    face.vertex[k] = place_in(near.vertices, p.vertex[k], SameNumber());
+    face.edge[k] =
+        place_in(near.edges, 0, near.edges.size(), p.edge[k], [](const auto &e) { return e.edge; });
+    face.vertex[k] = place_in(near.vertices, 0, near.n_whole, p.vertex[k], SameNumber());
     has_any |= face.edge[k] < near.edges.size() || face.vertex[k] < near.vertices.size();
   }
   if (has_any)
@@ -301,123 +402,136 @@ bool ShapeSearch::find_by_owner(const PlacedGrain &grain, NearFeatures &near)
   const Real unsure =
       s.farthest *
       (s.is_ellipsoid() ? std::fmax(kSameFoot, kRounding * slender * slender) : kUnsureFoot);
-  std::uint32_t rim = 0, inner = 0;
-  owned_.assign(near.planes.size(), false);
-  for (NearFeatures::Plane &plane : near.planes) {
-    look_at_plane(grain, near, plane, rim, inner, unsure);
-    rim = plane.rim_end;
-    inner = plane.inner_end;
-  }
+  // One plane alone is always reached.
+  const Vec3 half =
+      near.planes.size() > 1 ? half_box(grain) : Vec3{s.farthest, s.farthest, s.farthest};
+  planes_.resize(near.planes.size());
+  for (std::size_t i = 0; i < near.planes.size(); i++) look_at_plane(grain, near, i, half);
+  if (near.vertices.empty()) return deep_.empty();
+  leave_out_passed(grain, near, unsure);
   lines_.clear();
+  looked_at_.clear();
   look_at_likely_edges(grain, near, unsure);
   bool has_deep = false;
-  for (std::uint32_t i = 0; i < near.vertices.size(); i++) {
+  for (std::uint32_t i = 0; i < near.n_whole; i++) {
     if (vertex_[i] == State::may_be) look_at_vertex(grain, near, i);
     has_deep |= vertex_[i] == State::is_deep;
   }
   for (std::uint32_t i = 0; i < near.edges.size(); i++) {
     if (edge_[i] == State::may_be) look_at_edge(grain, near, i);
     has_deep |= edge_[i] == State::is_deep;
+    near.edges[i].is_likely = edge_[i] == State::is;
   }
   return deep_are_passed(grain, near, has_deep) && !passed_deep_;
 }
 
-void ShapeSearch::look_at_plane(const PlacedGrain &grain, const NearFeatures &near,
-                                NearFeatures::Plane &plane, std::uint32_t rim, std::uint32_t inner,
-                                Real unsure)
+// Says where the grain is to a plane, and finds the contact inside its faces. `half`: of the box around the grain.
+void ShapeSearch::look_at_plane(const PlacedGrain &grain, NearFeatures &near, std::size_t i,
+                                const Vec3 &half)
 {
   const Superellipsoid &s = grain.shape;
-  const Real height = dot(plane.normal, plane.point - grain.centre), side = height < 0 ? -1 : 1;
-  const Vec3 normal = side * plane.normal;
-  Vec3 arm = {0, 0, 0};
-  Real overlap = s.farthest - std::fabs(height);
-  if (overlap > 0) {
-    const SupportPlane tangent = support(s, grain.to_own(normal));
-    overlap = tangent.height - std::fabs(height);
-    arm = grain.turned(tangent.point);
-  }
-  if (!(overlap > 0)) {
-    for (; rim < plane.rim_end; rim++) rule_out(near.rim[rim]);
-    return;
-  }
-  const Vec3 point = grain.centre + arm;
-  const bool is_deep = !(overlap < s.rho);
-  if (is_deep && gauge_value(s, grain.own_point(point - overlap * normal)) < 1 &&
-      has_foot(near, plane, rim, inner, point)) {
-    owned_[static_cast<std::size_t>(&plane - near.planes.data())] = true;
-  } else if (is_deep) {
-    // On the ray to the point of the surface, so that it is in the grain.
-    const Vec3 section = grain.centre + (std::fabs(height) / (std::fabs(height) + overlap)) * arm;
-    for (; rim < plane.rim_end; rim++)
-      if (is_cut(grain, near.rim[rim].primitive, section, &near.rim[rim]))
-        deep_.push_back({near.rim[rim].primitive, &plane, &near.rim[rim]});
-      else
-        rule_out(near.rim[rim]);
-    for (; inner < plane.inner_end; inner++)
-      if (is_cut(grain, near.inner[inner], section, nullptr))
-        deep_.push_back({near.inner[inner], &plane, nullptr});
-    return;
-  }
+  const NearFeatures::Plane &plane = near.planes[i];
+  AtPlane &at = planes_[i];
+  at = {Side::out_of_reach, false, 1, {0, 0, 0}};
+  const Real height = dot(plane.normal, plane.point - grain.centre);
+  if (!(std::fabs(height) < s.farthest) || is_outside(plane, grain.centre, half)) return;
+  at.towards = height < 0 ? -1 : 1;
+  const Vec3 normal = at.towards * plane.normal;
+  const SupportPlane tangent = support(s, grain.to_own(normal));
+  const Real overlap = tangent.height - std::fabs(height);
+  if (!(overlap > 0)) return;
+  at.side = Side::in_reach;
+  at.arm = grain.turned(tangent.point);
+  const Vec3 point = grain.centre + at.arm, foot = point - overlap * normal;
   const Real same = kSameFoot * s.farthest;
-  const std::uint32_t first_rim = rim;
-  bool has_foot = false;
-  for (; rim < plane.rim_end; rim++) {
-    const NearFeatures::RimFace &face = near.rim[rim];
-    if (!may_be_at(face)) continue;
-    const Inwards in = inwards_of(face.primitive, point);
-    if (is_inside(near, face, in, same)) {
-      add_face(grain, face.primitive, side, arm);
-      rule_out(face);
-      has_foot = true;
-      continue;
-    }
-    // Without branches, which no processor could foresee.
-    const int past[3] = {in[0] < unsure, in[1] < unsure, in[2] < unsure};
-    leave(edge_[face.edge[0]], past[0]);
-    leave(edge_[face.edge[1]], past[1]);
-    leave(edge_[face.edge[2]], past[2]);
-    leave(vertex_[face.vertex[0]], past[0] | past[2]);
-    leave(vertex_[face.vertex[1]], past[1] | past[0]);
-    leave(vertex_[face.vertex[2]], past[2] | past[1]);
+  const bool is_elsewhere = is_outside(plane, foot, {same, same, same});
+  if (!(overlap < s.rho)) {
+    at.is_owned =
+        !is_elsewhere && gauge_value(s, grain.own_point(foot)) < 1 && has_foot(near, i, point);
+    // On the ray to the point of the surface, so that it is in the grain.
+    if (!at.is_owned)
+      return look_at_deep_plane(grain, near, i,
+                                grain.centre +
+                                    (std::fabs(height) / (std::fabs(height) + overlap)) * at.arm);
   }
-  if (has_foot || is_outside(plane, point - overlap * normal, same)) return;
+  if (!is_elsewhere) find_foot(grain, near, i);
+}
+
+// Notes the faces of a plane that the grain may cut. `section`: a point of the plane that is in the grain.
+void ShapeSearch::look_at_deep_plane(const PlacedGrain &grain, const NearFeatures &near,
+                                     std::size_t i, const Vec3 &section)
+{
+  const NearFeatures::Plane &plane = near.planes[i];
+  planes_[i].side = Side::is_deep;
+  for (std::uint32_t r = near.rim_begin(i); r < plane.rim_end; r++)
+    if (is_cut(grain, near, near.rim[r].primitive, section, &near.rim[r]))
+      deep_.push_back({near.rim[r].primitive, &plane, &near.rim[r]});
+    else
+      rule_out(near.rim[r]);
+  for (std::uint32_t k = near.inner_begin(i); k < plane.inner_end; k++)
+    if (is_cut(grain, near, near.inner[k], section, nullptr))
+      deep_.push_back({near.inner[k], &plane, nullptr});
+}
+
+// Adds the contact inside a face of a plane, if one has its foot: then it is that of the sides and corners of the face, too.
+void ShapeSearch::find_foot(const PlacedGrain &grain, NearFeatures &near, std::size_t i)
+{
+  NearFeatures::Plane &plane = near.planes[i];
+  const auto &[side, is_owned, towards, arm] = planes_[i];
+  const Vec3 point = grain.centre + arm;
+  const Real same = kSameFoot * grain.shape.farthest;
   const Inwards likely = inwards_of(plane.likely, point);
-  if ((likely[0] > same) & (likely[1] > same) & (likely[2] > same))
-    return add_face(grain, plane.likely, side, arm);
-  for (rim = first_rim; rim < plane.rim_end; rim++) {
-    const NearFeatures::RimFace &face = near.rim[rim];
-    if (may_be_at(face) || !is_inside(near, face, inwards_of(face.primitive, point), same))
-      continue;
-    add_face(grain, face.primitive, side, arm);
+  if ((likely[0] > same) & (likely[1] > same) & (likely[2] > same)) {
+    if (plane.likely_rim != kNoPrimitive) rule_out(near.rim[plane.likely_rim]);
+    return add_face(grain, plane.likely, towards, arm);
+  }
+  for (std::uint32_t r = near.rim_begin(i); r < plane.rim_end; r++) {
+    const NearFeatures::RimFace &face = near.rim[r];
+    if (!is_inside(near, face, inwards_of(face.primitive, point), same)) continue;
+    add_face(grain, face.primitive, towards, arm);
+    rule_out(face);
     plane.likely = face.primitive;
+    plane.likely_rim = r;
   }
-  for (; inner < plane.inner_end; inner++) {
-    const Inwards in = inwards_of(near.inner[inner], point);
+  for (std::uint32_t k = near.inner_begin(i); k < plane.inner_end; k++) {
+    const Inwards in = inwards_of(near.inner[k], point);
     if (!((in[0] >= -same) & (in[1] >= -same) & (in[2] >= -same))) continue;
-    add_face(grain, near.inner[inner], side, arm);
-    plane.likely = near.inner[inner];
+    add_face(grain, near.inner[k], towards, arm);
+    plane.likely = near.inner[k];
+    plane.likely_rim = kNoPrimitive;
   }
+}
+
+// Leaves out edges and vertices at planes that the grain does not reach, and those from which the foot of a plane is inwards.
+void ShapeSearch::leave_out_passed(const PlacedGrain &grain, const NearFeatures &near, Real unsure)
+{
+  const auto is_passed = [&](const NearFeatures::PartOfFace &part, bool is_vertex) {
+    const NearFeatures::RimFace &face = near.rim[part.rim];
+    const AtPlane &at = planes_[face.plane];
+    if (at.side != Side::in_reach) return at.side == Side::out_of_reach;
+    const Inwards in = inwards_of(face.primitive, grain.centre + at.arm);
+    return !(in[part.k] < unsure) && !(is_vertex && in[part.k == 0 ? 2 : part.k - 1] < unsure);
+  };
+  const auto leave_out = [&](std::vector<State> &state, const NearFeatures::FacesAt &faces,
+                             bool is_vertex) {
+    for (std::size_t i = 0; i < faces.end.size(); i++)
+      for (std::size_t k = faces.begin_of(i); k < faces.end[i] && state[i] == State::may_be; k++)
+        if (is_passed(faces.parts[k], is_vertex)) state[i] = State::cannot_be;
+  };
+  leave_out(edge_, near.faces_at_edge, false);
+  leave_out(vertex_, near.faces_at_vertex, true);
 }
 
 // Is a point over one of the faces of a plane?
-bool ShapeSearch::has_foot(const NearFeatures &near, const NearFeatures::Plane &plane,
-                           std::uint32_t rim, std::uint32_t inner, const Vec3 &point) const
+bool ShapeSearch::has_foot(const NearFeatures &near, std::size_t plane, const Vec3 &point) const
 {
-  for (; rim < plane.rim_end; rim++)
-    if (is_inside(near, near.rim[rim], inwards_of(near.rim[rim].primitive, point), 0)) return true;
-  for (; inner < plane.inner_end; inner++) {
-    const Inwards in = inwards_of(near.inner[inner], point);
+  for (std::uint32_t r = near.rim_begin(plane); r < near.planes[plane].rim_end; r++)
+    if (is_inside(near, near.rim[r], inwards_of(near.rim[r].primitive, point), 0)) return true;
+  for (std::uint32_t k = near.inner_begin(plane); k < near.planes[plane].inner_end; k++) {
+    const Inwards in = inwards_of(near.inner[k], point);
     if ((in[0] >= 0) & (in[1] >= 0) & (in[2] >= 0)) return true;
   }
   return false;
-}
-
-// Is a foot outside the box around the faces of a plane?
-bool ShapeSearch::is_outside(const NearFeatures::Plane &plane, const Vec3 &foot, Real same)
-{
-  bool is = false;
-  for (int k = 0; k < 3; k++) is |= (foot[k] < plane.lo[k] - same) | (foot[k] > plane.hi[k] + same);
-  return is;
 }
 
 // Is a foot inside a face of the rim? On a side within a flat patch faces of the patch share it.
@@ -428,33 +542,43 @@ bool ShapeSearch::is_inside(const NearFeatures &near, const NearFeatures::RimFac
   return (in[0] >= least(0)) & (in[1] >= least(1)) & (in[2] >= least(2));
 }
 
-// Can a feature of a face be a contact?
-bool ShapeSearch::may_be_at(const NearFeatures::RimFace &face) const
-{
-  constexpr int kMay = static_cast<int>(State::may_be);
-  int may = 0;
-  for (int k = 0; k < 3; k++)
-    may |= static_cast<int>(edge_[face.edge[k]]) | static_cast<int>(vertex_[face.vertex[k]]);
-  return may & kMay;
-}
-
-// Begins with those edges and vertices that the grain may cut.
+// Begins with those edges and vertices that the grain may cut; of some edges of a superellipsoid that is asked later.
 void ShapeSearch::list_cut(const PlacedGrain &grain, const NearFeatures &near)
 {
+  const std::size_t n = near.vertices.size();
+  if (n == 0) return;
+  const Vec3 inverse = inverse_of(grain.shape.half);
+  own_.resize(n);
+  scaled_.resize(n);
   cut_.resize(near.edges.size());
   edge_.resize(near.edges.size() + 1);
-  vertex_.resize(near.vertices.size() + 1);
+  vertex_.resize(n + 1);
   edge_.back() = vertex_.back() = State::cannot_be;
-  for (std::size_t i = 0; i < near.vertices.size(); i++)
-    vertex_[i] = may_hold(grain.shape, grain.own_point(view_.vertices[near.vertices[i]]))
-                     ? State::may_be
-                     : State::cannot_be;
-  for (std::size_t i = 0; i < near.edges.size(); i++) {
-    const int *ends = view_.edges + 2 * near.edges[i].edge;
-    cut_[i] = may_cut(grain.shape, grain.own_point(view_.vertices[ends[0]]),
-                      grain.own_point(view_.vertices[ends[1]]));
-    edge_[i] = cut_[i] ? State::may_be : State::cannot_be;
+  for (std::size_t i = 0; i < n; i++) {
+    own_[i] = grain.own_point(view_.vertices[near.vertices[i]]);
+    scaled_[i] = scaled(own_[i], inverse);
+    vertex_[i] =
+        i < near.n_whole && may_hold(grain.shape, scaled_[i]) ? State::may_be : State::cannot_be;
   }
+  for (std::size_t i = 0; i < near.edges.size(); i++) {
+    const std::uint32_t *ends = near.edges[i].vertex;
+    const Vec3 &from = scaled_[ends[0]], &to = scaled_[ends[1]];
+    cut_[i] = is_beside_box(from, to)                     ? Cut::no
+              : NearestToCentre(from, to).is_in_ellipsoid ? Cut::yes
+              : grain.shape.is_ellipsoid()                ? Cut::no
+                                                          : Cut::not_asked;
+    edge_[i] = cut_[i] == Cut::no ? State::cannot_be : State::may_be;
+  }
+}
+
+// May the grain cut an edge of the list?
+bool ShapeSearch::is_edge_cut(const PlacedGrain &grain, const NearFeatures &near, std::size_t i)
+{
+  if (cut_[i] == Cut::not_asked) {
+    const std::uint32_t *ends = near.edges[i].vertex;
+    cut_[i] = may_cut_scaled(grain.shape, scaled_[ends[0]], scaled_[ends[1]]) ? Cut::yes : Cut::no;
+  }
+  return cut_[i] == Cut::yes;
 }
 
 // Returns how far a point is from the sides of a face, inwards.
@@ -501,7 +625,7 @@ bool ShapeSearch::is_passed(const PlacedGrain &grain, const NearFeatures &near,
 {
   const std::size_t plane = deep.plane - near.planes.data();
   const TreePrimitive &p = view_.primitives[deep.primitive];
-  for (std::uint32_t i = plane > 0 ? deep.plane[-1].rim_end : 0; i < deep.plane->rim_end; i++) {
+  for (std::uint32_t i = near.rim_begin(plane); i < deep.plane->rim_end; i++) {
     const NearFeatures::RimFace &face = near.rim[i];
     if (!has_minimum(face)) continue;
     for (const Minimum &m : local_) {
@@ -537,7 +661,7 @@ void ShapeSearch::look_at_vertex(const PlacedGrain &grain, const NearFeatures &n
                                  std::uint32_t i)
 {
   vertex_[i] = State::cannot_be;
-  const Vec3 y = grain.own_point(view_.vertices[near.vertices[i]]);
+  const Vec3 &y = own_[i];
   if (!(gauge_value(grain.shape, y) < 1)) return;
   const SurfacePoint p = nearest_on_surface(grain.shape, y);
   if (!(p.distance < 0)) return;
@@ -553,34 +677,44 @@ void ShapeSearch::look_at_vertex(const PlacedGrain &grain, const NearFeatures &n
   local_.push_back(m);
 }
 
-// Looks first at the edges inside which an ellipsoid of the same half-axes is deepest: where the foot is surely inside one, neither its ends
-// nor others of its line are looked at. What depends on its ends, or is deep, is left for later.
+// Looks first at the edges that had a contact, then at those inside which an ellipsoid of the same half-axes is deepest, and leaves
+// out those that the grain does not cut.
 void ShapeSearch::look_at_likely_edges(const PlacedGrain &grain, const NearFeatures &near,
                                        Real unsure)
 {
-  const Superellipsoid &s = grain.shape;
-  const auto scaled = [&](const Vec3 &x) {
-    return Vec3{x.x / s.half.x, x.y / s.half.y, x.z / s.half.z};
-  };
+  for (std::uint32_t i = 0; i < near.edges.size(); i++)
+    if (edge_[i] == State::may_be && near.edges[i].is_likely)
+      look_inside_edge(grain, near, i, unsure);
   for (std::uint32_t i = 0; i < near.edges.size(); i++) {
-    if (edge_[i] != State::may_be) continue;
-    const EdgeOfGrain edge = edge_of(grain, near, i);
-    const Vec3 from = scaled(edge.from), way = scaled(edge.to) - from;
-    const Real towards = -dot(from, way);
-    if (!(towards > 0 && towards < norm_sq(way))) continue;
-    if (is_off_a_line(s, edge.from, edge.to)) {
+    const NearFeatures::Edge &edge = near.edges[i];
+    if (edge_[i] != State::may_be || edge.is_likely) continue;
+    if (is_off_a_line(grain.shape, edge_of(edge)) || !is_edge_cut(grain, near, i)) {
       edge_[i] = State::cannot_be;
       continue;
     }
-    const EdgeMinimum m = minimum_of(s, edge);
-    const bool is_deep = !m.line.is_highest || !(-m.line.distance < s.rho);
-    if (m.line.distance < 0 &&
-        (is_deep || (m.is_here && !(m.at > unsure && m.at < m.length - unsure))))
-      continue;
-    settle_edge(grain, near, i, edge, m);
-    if (edge_[i] == State::is)
-      for (const std::uint32_t v : near.edges[i].vertex) leave(vertex_[v], 0);
+    const Vec3 &from = scaled_[edge.vertex[0]], way = scaled_[edge.vertex[1]] - from;
+    const Real towards = -dot(from, way);
+    if (towards > 0 && towards < norm_sq(way)) look_inside_edge(grain, near, i, unsure);
   }
+}
+
+// Looks at an edge. Where the foot is surely inside, neither its ends nor others of its line are looked at. What depends on its ends, or
+// is deep, is left for later.
+void ShapeSearch::look_inside_edge(const PlacedGrain &grain, const NearFeatures &near,
+                                   std::uint32_t i, Real unsure)
+{
+  const Superellipsoid &s = grain.shape;
+  const EdgeOfGrain edge = edge_of(near.edges[i]);
+  const EdgeMinimum m = minimum_of(s, edge);
+  const bool is_deep = !m.line.is_highest || !(-m.line.distance < s.rho);
+  if (m.line.distance < 0 &&
+      (is_deep || (m.is_here && !(m.at > unsure && m.at < m.length - unsure)))) {
+    looked_at_.push_back({i, m});
+    return;
+  }
+  settle_edge(grain, near, i, edge, m);
+  if (edge_[i] == State::is)
+    for (const std::uint32_t v : near.edges[i].vertex) vertex_[v] = State::cannot_be;
 }
 
 void ShapeSearch::look_at_edge(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i)
@@ -588,16 +722,12 @@ void ShapeSearch::look_at_edge(const PlacedGrain &grain, const NearFeatures &nea
   const std::uint32_t *vertex = near.edges[i].vertex;
   edge_[i] = State::cannot_be;
   if (vertex_[vertex[0]] == State::is || vertex_[vertex[1]] == State::is) return;
-  const EdgeOfGrain edge = edge_of(grain, near, i);
-  if (is_off_a_line(grain.shape, edge.from, edge.to)) return;
-  settle_edge(grain, near, i, edge, minimum_of(grain.shape, edge));
-}
-
-ShapeSearch::EdgeOfGrain ShapeSearch::edge_of(const PlacedGrain &grain, const NearFeatures &near,
-                                              std::uint32_t i) const
-{
-  const int *ends = view_.edges + 2 * near.edges[i].edge;
-  return {grain.own_point(view_.vertices[ends[0]]), grain.own_point(view_.vertices[ends[1]])};
+  const EdgeOfGrain edge = edge_of(near.edges[i]);
+  if (is_off_a_line(grain.shape, edge)) return;
+  const auto known = std::find_if(looked_at_.begin(), looked_at_.end(),
+                                  [&](const LookedAt &other) { return other.edge == i; });
+  settle_edge(grain, near, i, edge,
+              known != looked_at_.end() ? known->minimum : minimum_of(grain.shape, edge));
 }
 
 ShapeSearch::EdgeMinimum ShapeSearch::minimum_of(const Superellipsoid &s, const EdgeOfGrain &edge)
@@ -640,8 +770,9 @@ void ShapeSearch::settle_edge(const PlacedGrain &grain, const NearFeatures &near
 }
 
 // Does a segment lie on a line of which the minimum is known, and not there?
-bool ShapeSearch::is_off_a_line(const Superellipsoid &s, const Vec3 &from, const Vec3 &to) const
+bool ShapeSearch::is_off_a_line(const Superellipsoid &s, const EdgeOfGrain &edge) const
 {
+  const auto &[from, to] = edge;
   constexpr Real kSameLine = 1e-13;
   const Real unsure = kUnsureFoot * s.farthest;
   for (const Line &line : lines_) {
@@ -668,8 +799,8 @@ void ShapeSearch::find_by_triangle(const PlacedGrain &grain, const NearFeatures 
   std::uint32_t rim = 0, inner = 0;
   for (std::size_t i = 0; i < near.planes.size(); i++) {
     const NearFeatures::Plane &plane = near.planes[i];
-    for (; rim < plane.rim_end; rim++) look_at(near.rim[rim].primitive, owned_[i]);
-    for (; inner < plane.inner_end; inner++) look_at(near.inner[inner], owned_[i]);
+    for (; rim < plane.rim_end; rim++) look_at(near.rim[rim].primitive, planes_[i].is_owned);
+    for (; inner < plane.inner_end; inner++) look_at(near.inner[inner], planes_[i].is_owned);
   }
   for (const std::uint32_t primitive : near.bare) look_at(primitive, false);
   std::sort(minima_.begin(), minima_.end(), [](const Minimum &a, const Minimum &b) {
@@ -783,17 +914,22 @@ bool ShapeSearch::is_beside(const PlacedGrain &grain, std::uint32_t primitive) c
 // May the grain cut a face, of whose plane it has the point `section` in it? What it cuts of the plane is convex, so that without a
 // side that it cuts the face has all of it or none. All that is in reach is in every list, so that contacts are found in the same way,
 // and to the same bits, whatever else a list has.
-bool ShapeSearch::is_cut(const PlacedGrain &grain, std::uint32_t primitive, const Vec3 &section,
-                         const NearFeatures::RimFace *rim) const
+bool ShapeSearch::is_cut(const PlacedGrain &grain, const NearFeatures &near,
+                         std::uint32_t primitive, const Vec3 &section,
+                         const NearFeatures::RimFace *rim)
 {
   const TreePrimitive &p = view_.primitives[primitive];
   const Inwards in = inwards_of(primitive, section);
   bool may = (in[0] >= 0) & (in[1] >= 0) & (in[2] >= 0);
   const auto is_listed = [&](int k) { return rim && rim->edge[k] < cut_.size(); };
-  for (int k = 0; k < 3; k++) may |= is_listed(k) && cut_[rim->edge[k]];
-  for (int k = 0; k < 3 && !may; k++)
-    if (!is_listed(k))
-      may = may_cut(grain.shape, corner_of(grain, p, k), corner_of(grain, p, k == 2 ? 0 : k + 1));
+  for (int k = 0; k < 3 && !may; k++) may = is_listed(k) && is_edge_cut(grain, near, rim->edge[k]);
+  if (!may) {
+    const Vec3 inverse = inverse_of(grain.shape.half);
+    Vec3 corner[3];
+    for (int k = 0; k < 3; k++) corner[k] = scaled(corner_of(grain, p, k), inverse);
+    for (int k = 0; k < 3 && !may; k++)
+      may = !is_listed(k) && may_cut_scaled(grain.shape, corner[k], corner[k == 2 ? 0 : k + 1]);
+  }
   FeatureCode nearest = kNoFeature;
   return may && is_in_reach(grain, view_.exact(primitive, grain.centre, nearest));
 }

@@ -87,6 +87,15 @@ class ShapeSearch {
   // Can a feature of a list be a contact, is it one, or has it to be found by triangles unless a face at it has another?
   enum class State : char { cannot_be, may_be, is, is_deep };
   using Inwards = std::array<Real, 3>;
+  // Where the grain is to a plane: it does not reach it; its overlap is less than the least radius of curvature, or counts as such, as
+  // its foot is in a face; it is deep.
+  enum class Side : char { out_of_reach, in_reach, is_deep };
+  struct AtPlane {
+    Side side;
+    bool is_owned;    // it has the foot of its deep minimum in a face
+    Real towards;     // 1, or -1 where the grain is on the front
+    Vec3 arm;         // to the grain's point
+  };
   // A face of which the tangent plane need not be the minimum.
   struct DeepFace {
     std::uint32_t primitive;
@@ -103,6 +112,10 @@ class ShapeSearch {
     Real length, at;    // where its foot is, from the begin of the edge
     bool is_here;
   };
+  struct LookedAt {
+    std::uint32_t edge;
+    EdgeMinimum minimum;
+  };
   struct Line {
     Vec3 from, along, foot;    // of its minimum
   };
@@ -111,44 +124,46 @@ class ShapeSearch {
   void list_cut(const PlacedGrain &grain, const NearFeatures &near);
   void list_edges(NearFeatures &near);
   void list_face(NearFeatures &near, std::uint32_t primitive);
+  void list_faces_at(NearFeatures &near) const;
   bool find_by_owner(const PlacedGrain &grain, NearFeatures &near);
-  void look_at_plane(const PlacedGrain &grain, const NearFeatures &near, NearFeatures::Plane &plane,
-                     std::uint32_t rim, std::uint32_t inner, Real unsure);
+  void look_at_plane(const PlacedGrain &grain, NearFeatures &near, std::size_t i, const Vec3 &half);
+  void look_at_deep_plane(const PlacedGrain &grain, const NearFeatures &near, std::size_t i,
+                          const Vec3 &section);
+  void find_foot(const PlacedGrain &grain, NearFeatures &near, std::size_t i);
+  void leave_out_passed(const PlacedGrain &grain, const NearFeatures &near, Real unsure);
   Inwards inwards_of(std::uint32_t face, const Vec3 &point) const;
-  static bool is_outside(const NearFeatures::Plane &plane, const Vec3 &foot, Real same);
+  bool is_edge_cut(const PlacedGrain &grain, const NearFeatures &near, std::size_t i);
   static bool is_inside(const NearFeatures &near, const NearFeatures::RimFace &face,
                         const Inwards &in, Real same);
-  bool may_be_at(const NearFeatures::RimFace &face) const;
   void add_face(const PlacedGrain &grain, std::uint32_t face, Real side, const Vec3 &arm);
   void look_at_likely_edges(const PlacedGrain &grain, const NearFeatures &near, Real unsure);
+  void look_inside_edge(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i,
+                        Real unsure);
   void look_at_edge(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i);
-  EdgeOfGrain edge_of(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i) const;
+  EdgeOfGrain edge_of(const NearFeatures::Edge &edge) const
+  {
+    return {own_[edge.vertex[0]], own_[edge.vertex[1]]};
+  }
   static EdgeMinimum minimum_of(const Superellipsoid &s, const EdgeOfGrain &edge);
   void settle_edge(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i,
                    const EdgeOfGrain &of, const EdgeMinimum &on);
   void look_at_vertex(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i);
-  bool is_off_a_line(const Superellipsoid &s, const Vec3 &from, const Vec3 &to) const;
+  bool is_off_a_line(const Superellipsoid &s, const EdgeOfGrain &edge) const;
   bool deep_are_passed(const PlacedGrain &grain, const NearFeatures &near, bool has_deep);
   bool is_passed(const PlacedGrain &grain, const NearFeatures &near, const DeepFace &deep) const;
   bool has_minimum(const NearFeatures::RimFace &face) const;
   void rule_out(const NearFeatures::RimFace &face);
-  // Leaves a state that says `may_be` as it is if `may`, which is 0 or 1.
-  static void leave(State &state, int may)
-  {
-    state = static_cast<State>(static_cast<int>(state) & may);
-  }
   void find_by_triangle(const PlacedGrain &grain, const NearFeatures &near);
   template <class Found>
   void visit(const PlacedGrain &grain, Real radius, const Found &found);
   Vec3 corner_of(const PlacedGrain &grain, const TreePrimitive &p, int k) const;
   bool is_beside(const PlacedGrain &grain, std::uint32_t primitive) const;
-  bool is_cut(const PlacedGrain &grain, std::uint32_t primitive, const Vec3 &section,
-              const NearFeatures::RimFace *rim) const;
+  bool is_cut(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t primitive,
+              const Vec3 &section, const NearFeatures::RimFace *rim);
   ShapeMinimum minimum_of(const PlacedGrain &grain, std::uint32_t primitive, Real below) const;
   ShapeMinimum contact_minimum(const PlacedGrain &grain, std::uint32_t primitive,
                                bool is_owned) const;
-  bool has_foot(const NearFeatures &near, const NearFeatures::Plane &plane, std::uint32_t rim,
-                std::uint32_t inner, const Vec3 &point) const;
+  bool has_foot(const NearFeatures &near, std::size_t plane, const Vec3 &point) const;
   FeatureCode feature_of(const ShapeMinimum &m, const TreePrimitive &p) const;
   Minimum made(const ShapeMinimum &m, std::uint32_t primitive) const;
   void add(const ShapeMinimum &m, std::uint32_t primitive);
@@ -168,13 +183,16 @@ class ShapeSearch {
   const std::vector<std::uint32_t> &patches_;
   NearFeatures near_;
   std::vector<std::uint32_t> faces_, numbers_, whole_;    // of a list that is made
+  std::vector<Vec3> own_, scaled_;    // vertices in the grain's frame, and over its half-axes
   std::vector<State> edge_, vertex_;
-  std::vector<char> cut_;    // of edges: the grain may cut it
+  enum class Cut : char { no, yes, not_asked };
+  std::vector<Cut> cut_;    // of edges: may the grain cut it?
   std::vector<DeepFace> deep_;
   // Has an edge been passed where the overlap is not less than the least radius of curvature?
   bool passed_deep_ = false;
-  std::vector<char> owned_;    // of planes: it has the foot of its deep minimum in a face
+  std::vector<AtPlane> planes_;
   std::vector<Line> lines_;
+  std::vector<LookedAt> looked_at_;    // edges that have to be looked at once more
   std::vector<Minimum> minima_, local_;
   std::vector<std::uint32_t> piece_;    // of each of minima_, another one of its piece, or itself
   std::vector<std::pair<FeatureCode, std::uint32_t>>
