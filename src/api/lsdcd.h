@@ -713,7 +713,7 @@ typedef struct lsdcd_wall_spec {
   /* Steps of each mean of force and torque in lsdcd_wall_totals, as a solver of a fluid samples them; 0: there are none */
   int average_every;
   int each_contact; /* 1: lsdcd_wall_get_contacts() will be called */
-  int energy; /* 1: what contacts dissipate is booked, by cause; not with shapes, nodes_by_caller, coats and wear_deform_every */
+  int energy;       /* 1: what contacts dissipate is booked, by cause; not with shapes and coats */
   /* The share of the heat of friction that goes into the spheres, 0 to 1, as `heat` of lsdcd_spheres; with `energy` and the
    * sub-model heat */
   double friction_heat;
@@ -826,6 +826,8 @@ typedef struct lsdcd_wall_totals {
   /* With impact_speed: the number of impacts since the first step, and their energy, the sum of m v^2/2 with the speed along the
    * normal, and with a body's mobility in m. */
   double impacts, impact_energy;
+  /* With `energy` and wear_deform_every: energy that contacts lose as wear moves the mesh. */
+  double wear_loss;
 } lsdcd_wall_totals;
 /* The totals of a mesh in the last step, over all processes; -1: of all, without servos. The torque is about the point `about`, of
  * the box, 3 numbers; null: about `torque_about` of each mesh. Own. */

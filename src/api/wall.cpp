@@ -153,6 +153,7 @@ int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, const double *about,
     out.contact_work = e.rows[EnergyRow::work];
     out.drive_work = e.rows[EnergyRow::drive];
     out.held = e.rows[EnergyRow::held];
+    out.wear_loss = e.rows[EnergyRow::wear];
     out.remainder = e.remainder();
     out.impacts = out.impact_energy = 0;
     for (const MeshPart &m : wall->in->meshes()) {

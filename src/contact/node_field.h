@@ -4,7 +4,7 @@
 // A mesh whose nodes move: the shares of the nodes of a feature in one of its points, and the velocity there.
 #pragma once
 
-#include "geometry/wall_records.h"
+#include "contact/history.h"
 
 namespace lsdcd {
 
@@ -46,6 +46,15 @@ LSDCD_FN NodeShares node_shares(const MeshFeaturesView &wall, FeatureCode featur
     default:
       return {1, {static_cast<std::int32_t>(i), 0, 0}, {1, 0, 0}};
   }
+}
+
+// Returns the nodes of a feature with shares that node_shares() has returned for it.
+LSDCD_FN NodeShares shares_again(const MeshFeaturesView &wall, FeatureCode feature,
+                                 const Real (&share)[3])
+{
+  NodeShares at = {0, {0, 0, 0}, {share[0], share[1], share[2]}};
+  at.n = feature_vertices(wall, feature, at.node);
+  return at;
 }
 
 // Returns the value of a field there. Where all nodes have the same it is exactly that.

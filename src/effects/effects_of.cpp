@@ -60,7 +60,9 @@ std::vector<Effect> effects_of(const EngineSettings &s)
   if (s.nodes) effects.push_back({"moving nodes", 0});
   if (s.contacts) effects.push_back({"loads of triangles", 0});
   if (s.law().keeps_forces)
-    effects.push_back({"books of energy", kKeptForces * static_cast<int>(sizeof(Real))});
+    effects.push_back(
+        {"books of energy", (kKeptForces + (s.law().keeps_at_nodes ? kKeptAtNodes : 0)) *
+                                static_cast<int>(sizeof(Real))});
   if (s.energy_places) effects.push_back({"energy of triangles", 0});
   if (s.impact_speed > 0) effects.push_back({"impacts", 0});
   if (s.wear == WearModel::archard) effects.push_back({"wear archard", 0});

@@ -73,6 +73,9 @@ struct StepSettings {
   const SurfaceMotion *surface = nullptr;
   // For each mesh, how it gives way where it is a rigid body, and 0 where it is none; valid until collect().
   const Mobility *mobility = nullptr;
+  // For each mesh, by how far wear has moved its vertices since the last step (length), none where it has not; read only where
+  // laws book energy; valid until collect(). Null: no mesh has moved so.
+  const std::vector<Vec3> *receded = nullptr;
 };
 
 // When a step does its work, and where.

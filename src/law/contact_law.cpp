@@ -22,7 +22,8 @@ bool ContactLaw::has_history() const
 
 int ContactLaw::n_extra() const
 {
-  int n = (for_shapes && has_history() ? 3 : 0) + (keeps_forces ? kKeptForces : 0);
+  int n = (for_shapes && has_history() ? 3 : 0) + (keeps_forces ? kKeptForces : 0) +
+          (keeps_at_nodes ? kKeptAtNodes : 0);
   for (const SubModel *row : rows_of(*this)) n += row->stored.beside_shear;
   return n;
 }
@@ -53,6 +54,7 @@ int ContactLaw::history_kind() const
     if (row->stored.what) add(row->stored.what + std::string(";"));
   if (for_shapes && has_history()) add("arm;");
   if (keeps_forces) add("forces;");
+  if (keeps_at_nodes) add("nodes;");
   ContactLaw without_touch = *this;
   without_touch.keeps_touch = false;
   if (!without_touch.has_history() && keeps_touch) add("touch;");

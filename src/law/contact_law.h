@@ -56,6 +56,8 @@ struct ContactLaw {
   bool for_shapes = false;
   // A contact keeps its forces for the next step (KeptForces), in which books of energy need them.
   bool keeps_forces = false;
+  // Beside these, KeptAtNodes.
+  bool keeps_at_nodes = false;
   // A contact without anything to keep keeps that it touched, so that it is known when another one begins.
   bool keeps_touch = false;
 

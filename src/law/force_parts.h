@@ -48,6 +48,13 @@ struct KeptForces {
 };
 constexpr int kKeptForces = static_cast<int>(sizeof(KeptForces) / sizeof(Real));
 
+// What a contact keeps beside that where nodes of a mesh move: springs turn with their feature, and these forces do not.
+struct KeptAtNodes {
+  Vec3 normal;      // of the forces
+  Real share[3];    // of the nodes of its feature, which add up to 1
+};
+constexpr int kKeptAtNodes = static_cast<int>(sizeof(KeptAtNodes) / sizeof(Real));
+
 // Returns the energy that a spring of this force and stiffness holds.
 LSDCD_FN Real spring_energy(Real force_sq, Real k)
 {

@@ -388,6 +388,9 @@ void Wall::change_surfaces(const Step &step)
     if (!m->surface->change(step, cutoff())) continue;
     grids_.follow_surface(*m);
     engine_->expire_choice();
+    if (!spec_.energy) continue;
+    receded_.resize(meshes_.size());
+    receded_[m->index] = m->surface->receded();
   }
 }
 
@@ -436,7 +439,9 @@ StepSettings Wall::step_settings()
   const bool asked = any(bodies_, [](const MeshPart *m) { return m->body->asks_for_contacts(); });
   const bool sums =
       !bodies_.empty() || any(servos_, [](const MeshPart *m) { return m->mover.servo_acts(); });
-  return engine_input_.step(input_, {!bodies_.empty(), asked, reads_loads_, sums});
+  StepSettings step = engine_input_.step(input_, {!bodies_.empty(), asked, reads_loads_, sums});
+  if (!receded_.empty()) step.receded = receded_.data();
+  return step;
 }
 
 void Wall::collect(int n)
@@ -466,6 +471,7 @@ void Wall::finish(const HostSpheres &spheres)
     times_.end(TimeReport::forces);
   }
   guard(spheres, [&] { collect(spheres.n); });
+  receded_.clear();
   totals_.expire();
   if (!moving_.empty()) note_poses();
   for (MeshPart *m : bodies_) m->body->end(input_.step, results());

@@ -285,10 +285,11 @@ class Wall {
   GridManager grids_;
   StateKeeper keeper_;
 
-  StepInput input_;                      // of the last begin()
-  std::vector<Pose> poses_;              // of the meshes in the last step that was finished
-  bool has_begun_ = false;               // a step
-  bool is_running_ = false;              // a step, and no run has ended since
+  StepInput input_;                           // of the last begin()
+  std::vector<std::vector<Vec3>> receded_;    // see StepSettings; empty: no mesh has moved so
+  std::vector<Pose> poses_;                   // of the meshes in the last step that was finished
+  bool has_begun_ = false;                    // a step
+  bool is_running_ = false;                   // a step, and no run has ended since
   std::optional<InputError> failure_;    // of the last step on this process, where there are others
   bool continued_ = false;               // from a saved state
   bool springs_told_ = false;

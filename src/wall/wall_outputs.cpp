@@ -217,6 +217,8 @@ bool has(const WallSpec &wall, OutputPart part)
       return any(is_body);
     case OutputPart::wear:
       return wall.wear_deform.every > 0;
+    case OutputPart::wear_energy:
+      return wall.energy && wall.wear_deform.every > 0;
     case OutputPart::nodes:
       return wall.has_nodes();
     case OutputPart::means:
@@ -333,7 +335,10 @@ const std::vector<WallOutput> &wall_outputs()
       {1, "impacts", "number of impacts since the beginning", "", adds_up, P::impacts, impacts,
        nullptr},
       {1, "impact_energy", "their energy, the sum of m v^2/2 with the speed along the normal",
-       "energy units", adds_up, P::impacts, impact_energy, nullptr}};
+       "energy units", adds_up, P::impacts, impact_energy, nullptr},
+      {1, "wear_loss", "energy that contacts lose as *wear ... deform* moves the mesh",
+       "energy units", adds_up, P::wear_energy, energy_of<sum_of<EnergyRow::wear>>,
+       energy_of_all<sum_of<EnergyRow::wear>>}};
   return all;
 }
 

@@ -11,7 +11,18 @@
 namespace lsdcd {
 
 // What a wall must have for a row of outputs to be more than 0.
-enum class OutputPart { every_wall, servo, body, wear, nodes, means, motion, energy, impacts };
+enum class OutputPart {
+  every_wall,
+  servo,
+  body,
+  wear,
+  nodes,
+  means,
+  motion,
+  energy,
+  impacts,
+  wear_energy
+};
 
 struct WallOutput {
   int n;    // columns

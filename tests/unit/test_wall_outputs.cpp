@@ -39,6 +39,8 @@ std::string keyword_of(OutputPart part)
       return " *energy*";
     case OutputPart::impacts:
       return " *impacts*";
+    case OutputPart::wear_energy:
+      return " *energy* with *wear ... deform*";
     default:
       return "";
   }

@@ -626,6 +626,7 @@ class WallTotals(_Record):
     remainder: float      # contact_work less all that is held or lost
     impacts: float        # number since the first step, of a wall with `impact_speed`
     impact_energy: float  # sum of m v^2/2, with the speed along the normal
+    wear_loss: float      # energy that contacts lose as wear moves the mesh, of a wall with `energy` and `wear_deform`
 
 
 class WallContacts(_Record):

@@ -301,8 +301,7 @@ class MovingNodes : public NodeEngine {
   void see_forces() override
   {
     forces_.see(b(),
-                e_->results_.node_contacts(e_->springs_.contacts(e_->step_.update_history), mesh_,
-                                           records(), velocity_.data()),
+                e_->results_.node_contacts(e_->step_contacts(), mesh_, records(), velocity_.data()),
                 at_.size());
   }
   NodeForceRange force_range() override { return forces_.range(); }

@@ -36,7 +36,7 @@ class EngineOn : public WallEngine {
       settings_(settings), law_(law), b_(std::move(backend)), broad_phase_(settings),
       mirror_(settings.arrays, law.traits.heat), counts_(1),
       springs_(b_, law.traits, counts_.data()), works_of_meshes_(settings.meshes),
-      overflow_(kOverflowScratches)
+      receded_(settings.meshes), overflow_(kOverflowScratches)
   {
     clear_diagnostics(StepCounts());
     unlock_scratches();
@@ -134,7 +134,7 @@ class EngineOn : public WallEngine {
     if (!gives_back_at_submit()) mirror_.start_back(b_);
     mirror_.collect(b_);
     state_ = StepState::none;
-    results_.fetch(b_, springs_.contacts(step_.update_history || law_.traits.sets_up));
+    results_.fetch(b_, step_contacts());
   }
 
   StepResults &results() override { return results_; }
@@ -169,6 +169,7 @@ class EngineOn : public WallEngine {
         next_results_.bytes() + overflow_.size() * sizeof(OverflowScratch) + work_lists_.bytes() +
         loads_.bytes() + energies_.bytes() + b_.scratch_bytes() + beside_.scratch_bytes();
     for (const auto &nodes : nodes_) bytes += nodes->bytes();
+    for (const auto &receded : receded_) bytes += receded.size() * sizeof(Vec3);
     return bytes;
   }
 
@@ -197,11 +198,15 @@ class EngineOn : public WallEngine {
     const bool has_nodes = !nodes_.empty() && nodes_[mesh]->field().velocity;
     return has_nodes ? MeshFeaturesView() : broad_phase_.mesh(mesh).grid.view.wall;
   }
-  // Return the contacts of the last step, and its records of energy without the sums of a mesh.
+  // Returns the contacts of the last step, which has swapped the springs or not.
+  const StepContact *step_contacts() const
+  {
+    return springs_.contacts(step_.update_history || law_.traits.sets_up);
+  }
+  // Return those on a mesh, and its records of energy without the sums of a mesh.
   NodeContacts contacts_on(int mesh) const
   {
-    return results_.node_contacts(springs_.contacts(step_.update_history || law_.traits.sets_up),
-                                  mesh, features(mesh), nullptr);
+    return results_.node_contacts(step_contacts(), mesh, features(mesh), nullptr);
   }
   LoadRecords records_on(int mesh) const
   {
@@ -253,8 +258,14 @@ class EngineOn : public WallEngine {
     if (work) return *work;
     const EngineMesh<B> &mesh = broad_phase_.mesh(m);
     const NodeField nodes = nodes_.empty() ? NodeField() : nodes_[m]->field();
-    return work.emplace(
-        MeshWork{mesh.grid.view, force_settings(settings_, step_, mesh.pose, nodes, m)});
+    return work.emplace(MeshWork{
+        mesh.grid.view, force_settings(settings_, step_, mesh.pose, nodes, m, receded_of(m))});
+  }
+  // Returns by how far wear has moved the vertices of a mesh since the last step, where kernels read it; null: not at all.
+  const Vec3 *receded_of(int m)
+  {
+    if (!step_.receded || step_.receded[m].empty()) return nullptr;
+    return (receded_[m] = from_cpu(b_, step_.receded[m])).data();
   }
   void forget_works() { works_of_meshes_.assign(works_of_meshes_.size(), std::nullopt); }
   // Does this part of a step where the step runs: of one that was begun beside the host's work on the engine's own stream.
@@ -395,9 +406,10 @@ class EngineOn : public WallEngine {
   LoadsOn<B> loads_{*this};
   EnergiesOn<B> energies_{*this};
   std::vector<std::optional<MeshWork>>
-      works_of_meshes_;      // none: something of it may have changed
-  Array<MeshWork> works_;    // the same where kernels read them
-  Array<LawEntry> laws_;     // of all meshes
+      works_of_meshes_;                 // none: something of it may have changed
+  std::vector<Array<Vec3>> receded_;    // of each mesh, see StepSettings
+  Array<MeshWork> works_;               // the same where kernels read them
+  Array<LawEntry> laws_;                // of all meshes
 
   int pool_written_ = -1;
   Array<OverflowScratch> overflow_;

@@ -71,6 +71,7 @@ enum class EnergyRow {
   stiffness,         // springs whose stiffness changes while they are stretched
   turned_springs,    // springs that are handed on or turned
   inserted,          // of contacts that begin in overlap, < 0
+  wear,              // as wear moves the wall away from spheres
   held,              // elastic energy now
   seen               // that of the last step, of the contacts that this one has found
 };

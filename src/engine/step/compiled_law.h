@@ -79,17 +79,19 @@ struct OnWall : Law {
   static constexpr bool kSetsUp = kEnergy || kRecords;
 };
 
-// Returns how many numbers of a contact engines store beside its shear displacement: those of the law, then KeptForces.
+// Returns how many numbers of a contact engines store beside its shear displacement: those of the law, then KeptForces and
+// KeptAtNodes.
 template <class Law>
 LSDCD_FN int n_stored(const Law &law)
 {
-  return n_extra(law) + (Law::kEnergy ? kKeptForces : 0);
+  return n_extra(law) + (Law::kEnergy ? kKeptForces + (Law::kNodes ? kKeptAtNodes : 0) : 0);
 }
 
 // The kernels that a law has, by their effects. plain: {none}. moving_or_both: {moving}, {moving + contacts}.
 // plain_or_both: {none}, {moving + contacts}. Where a wall has contacts alone it takes {moving + contacts}. Beside each
 // of these is {moving + contacts + nodes}, so that walls whose nodes do not move have no instruction for them.
-// energy: {moving + contacts + energy}; energy_records: that with records; impacts: {moving + contacts + records}.
+// energy: {moving + contacts + energy}, and with nodes; energy_records: the first with records; impacts: {moving + contacts +
+// records}.
 enum class WallKernels { plain, moving_or_both, plain_or_both, energy, energy_records, impacts };
 
 // Calls make(law) with the law that has the effects.
@@ -98,7 +100,8 @@ auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
 {
   if constexpr (kernels == WallKernels::plain) return make(OnWall<Law, false, false>{law});
   if constexpr (kernels == WallKernels::energy)
-    return make(OnWall<Law, true, true, false, true>{law});
+    return effects.nodes ? make(OnWall<Law, true, true, true, true>{law})
+                         : make(OnWall<Law, true, true, false, true>{law});
   if constexpr (kernels == WallKernels::energy_records)
     return make(OnWall<Law, true, true, false, true, true>{law});
   if constexpr (kernels == WallKernels::impacts)

@@ -4,7 +4,8 @@
 // What the contacts of a sphere do with energy in a step: laws with kEnergy alone have these lines.
 //
 // A step goes from the last places to these, with the velocities that are there now, and forces change on the way from what
-// they were to what they are: its work is half of each, -dt/2 (F_old + F) v. A contact keeps the forces of its step
+// they were to what they are: its work is half of each, -dt/2 (F_old + F) v. A wall that turns is seen at
+// where the sphere is for F, and for F_old at where it was, in the frame of then. A contact keeps the forces of its step
 // (KeptForces), and the next step of the sphere books their second half, whether the contact goes on, hands its spring over
 // or has ended. Causes are computed of the parts of a force, not as what is left.
 #pragma once
@@ -31,16 +32,18 @@ struct RelativeMotion {
   }
 };
 
+// `before`: the wall's at the place, in the frame of the mesh, where the sphere was a step ago.
 template <class Springs>
 LSDCD_FN RelativeMotion relative_motion(const ForceSettings &settings,
                                         const SphereStateWith<Springs> &s, const Vec3 &n,
-                                        Real distance)
+                                        Real distance, bool before)
 {
   RelativeMotion m = {};
   if (settings.pose.placed) {
     const Vec3 turning = cross(settings.wall_angular, s.x);
     m.wall =
         settings.wall_velocity + turning - settings.back * cross(settings.wall_angular, turning);
+    if (before) m.wall -= settings.dt * cross(settings.wall_angular, s.v - m.wall);
     m.spin = settings.wall_angular;
   }
   if (settings.surface_moves) {
@@ -172,32 +175,41 @@ template <class Law>
 struct EnergyBook {
   EnergyRows rows;
 
-  // Returns what the contact keeps.
+  // Stores what the contact keeps among its numbers `to`, behind those of the law.
   template <class Springs>
-  LSDCD_FN KeptForces add(const Law &law, const ForceSettings &settings,
-                          const SphereStateWith<Springs> &s, const BookedContact<Law> &b,
-                          const Transfer &in, EnergyMarks &marks)
+  LSDCD_FN void add(const Law &law, const MeshFeaturesView &wall, const ForceSettings &settings,
+                    const SphereStateWith<Springs> &s, const BookedContact<Law> &b,
+                    const Transfer &in, EnergyMarks &marks, Real *to)
   {
     const Contact &c = b.c;
     const Vec3 &n = c.normal;
     const KeptForces now = kept_of(n, b.f, b.parts, b.weight, b.distance, b.arm);
+    memcpy(to + n_extra(law), &now, sizeof now);
+    if constexpr (Law::kNodes) {
+      const Real *const share = b.nodes.share;
+      const KeptAtNodes at = {n, {share[0], share[1], share[2]}};
+      memcpy(to + n_extra(law) + kKeptForces, &at, sizeof at);
+    }
     rows[EnergyRow::held] += now.held;
     const bool goes_on = in.from >= 0 && in.part == 1;
     if (in.from >= 0) EnergyMarks::mark(marks.taken, in.from);
     if (goes_on) EnergyMarks::mark(marks.goes_on, in.from);
-    if (!settings.update) return now;
+    if (!settings.update) return;
 
     if (!goes_on) begin(law, s, b);
-    add_half(relative_motion(settings, s, n, b.distance), n, now, c.dt);
+    RelativeMotion m = relative_motion(settings, s, n, b.distance, false);
+    if constexpr (Law::kNodes)
+      if (settings.nodes.velocity) add_nodes(settings.nodes, b.nodes, n, now, c.dt, m);
+    add_half(m, n, now, c.dt);
+    if (settings.receded) recede(wall, b.feature, s.x - b.distance * n, settings.receded, n, now);
     KeptForces old = {};
     if (in.from >= 0) old = handed_on(law, settings, s, in, n);
     book_springs(c, b.parts, b.weight, now, old, rows);
-    return now;
   }
 
   // Books the second half of the last step's contacts with this mesh, and the rest of those that have ended.
   template <class Springs>
-  LSDCD_FN void close(const Law &law, const ForceSettings &settings,
+  LSDCD_FN void close(const Law &law, const MeshFeaturesView &wall, const ForceSettings &settings,
                       const SphereStateWith<Springs> &s, const EnergyMarks &marks,
                       [[maybe_unused]] const EnergyRecordList &records)
   {
@@ -209,20 +221,29 @@ struct EnergyBook {
       if (!settings.update) continue;
       [[maybe_unused]] Real lost_before = 0;
       if constexpr (Law::kRecords) lost_before = dissipated(rows);
-      const Vec3 n = s.springs[k].normal;
-      RelativeMotion m = relative_motion(settings, s, n, old.distance);
+      const FeatureCode feature = s.springs[k].feature;
+      Vec3 n = s.springs[k].normal;
+      RelativeMotion m = relative_motion(settings, s, n, old.distance, true);
       if (settings.pose.placed) m = m.before(settings.wall_angular, dt);
+      Vec3 turn = m.omega;    // less that of nodes, as the law sees it
+      if constexpr (Law::kNodes)
+        if (settings.nodes.velocity) {
+          const KeptAtNodes at = kept_at_nodes(law, s, k);
+          n = at.normal;
+          turn -= add_nodes(settings.nodes, shares_again(wall, feature, at.share), n, old, dt, m);
+        }
       add_half(m, n, old, dt);
-      const Vec3 slip = m.slip(n, old.distance, old.arm), rolling = rolling_part(m.omega, n);
-      const Real twisting = dot(m.omega, n);
+      if (settings.receded)
+        recede(wall, feature, s.x - dt * m.v - old.distance * n, settings.receded, n, old);
+      const Vec3 slip = m.slip(n, old.distance, old.arm), rolling = rolling_part(turn, n);
+      const Real twisting = dot(turn, n);
       if (!EnergyMarks::is_marked(marks.goes_on, k)) let_go(law, s, old);
       if (EnergyMarks::is_marked(marks.taken, k))
         rows[EnergyRow::turned_springs] += energy_left(old, slip, rolling, twisting, dt);
       else
         book_springs_at_end(old, n, slip, rolling, twisting, dt, rows);
       if constexpr (Law::kRecords) {
-        const EnergyRecord lost = {s.springs[k].feature, settings.mesh,
-                                   dissipated(rows) - lost_before, 0, 0};
+        const EnergyRecord lost = {feature, settings.mesh, dissipated(rows) - lost_before, 0, 0};
         records.put(lost);
       }
     }
@@ -237,6 +258,15 @@ struct EnergyBook {
     return kept;
   }
 
+  template <class Springs>
+  LSDCD_FN static KeptAtNodes kept_at_nodes(const Law &law, const SphereStateWith<Springs> &s,
+                                            int k)
+  {
+    KeptAtNodes at;
+    memcpy(&at, s.extra + k * n_stored(law) + n_extra(law) + kKeptForces, sizeof at);
+    return at;
+  }
+
   // Returns what the old contact in.from hands to the one with this normal, as memory_from_last_step() hands on its springs.
   template <class Springs>
   LSDCD_FN static KeptForces handed_on(const Law &law, const ForceSettings &settings,
@@ -246,7 +276,13 @@ struct EnergyBook {
     KeptForces old = kept(law, s, in.from);
     Vec3 *const vectors[] = {&old.friction, &old.friction_spring, &old.rolling,
                              &old.rolling_spring};
+    [[maybe_unused]] Vec3 was = {0, 0, 0};    // the normal that vectors have, of a mesh with nodes
+    if constexpr (Law::kNodes)
+      if (settings.nodes.velocity && is_own(s.springs, in.from))
+        was = kept_at_nodes(law, s, in.from).normal;
     for (Vec3 *h : vectors) {
+      if constexpr (Law::kNodes)
+        if (!(was == Vec3{0, 0, 0})) *h = transport(*h, was, s.springs[in.from].normal);
       *h = lsdcd::handed_on(in_own_frame(s.springs, in.from, *h), in, s.springs, n);
       if (settings.surface_moves)
         *h = turn_about(n, settings.dt * dot(settings.surface.angular, n), *h);
@@ -267,6 +303,25 @@ struct EnergyBook {
     rows[EnergyRow::damping] -= half * by.damping * dot(m.v, n);
     rows[EnergyRow::lever_arms] -=
         half * (by.arm - by.distance) * dot(by.friction, cross(m.spin, n));
+  }
+
+  // Adds to a motion that of nodes, and returns their spin, less which the law sees a sphere roll. Nodes get forces alone, so that
+  // half of what the torque of rolling and twisting does by that spin is lost.
+  LSDCD_FN Vec3 add_nodes(const NodeField &nodes, const NodeShares &at, const Vec3 &n,
+                          const KeptForces &by, Real dt, RelativeMotion &m)
+  {
+    const Vec3 velocity = field_at(at, nodes.velocity), spin = field_at(at, nodes.spin);
+    m.wall += velocity;
+    m.v -= velocity;
+    rows[EnergyRow::lever_arms] -= 0.5 * dt * dot(by.rolling + by.twisting * n, spin);
+    return spin;
+  }
+  // Adds half of what these forces lose as wear moves the wall at a point of a feature.
+  LSDCD_FN void recede(const MeshFeaturesView &wall, FeatureCode feature, const Vec3 &point,
+                       const Vec3 *receded, const Vec3 &n, const KeptForces &by)
+  {
+    rows[EnergyRow::wear] -=
+        0.5 * by.elastic * dot(n, field_at(node_shares(wall, feature, point), receded));
   }
 
   // Books what a contact that takes over no other begins with. Surfaces that adhere jump into contact where they touch.

@@ -90,6 +90,8 @@ struct BookedContact {
   ForceParts parts;
   Real weight;
   Real distance, arm;    // of the centre from the wall, and of friction
+  FeatureCode feature;
+  const NodeShares &nodes;    // in the closest point; read only where its nodes move
 };
 
 struct ForceSettings {
@@ -109,14 +111,16 @@ struct ForceSettings {
   Real back;
   Vec3 wall_velocity, wall_angular;    // of the pose then, in the frame of the mesh
   WearModel wear;                      // read only where contacts are kept
-  bool gives_way;       // the mesh is a rigid body; read only where contacts are kept
-  Mobility mobility;    // of it
-  NodeField nodes;      // where its nodes move; read only by laws for these
+  bool gives_way;         // the mesh is a rigid body; read only where contacts are kept
+  Mobility mobility;      // of it
+  NodeField nodes;        // where its nodes move; read only by laws for these
+  const Vec3 *receded;    // see StepSettings, of each vertex; null: none has
 };
 
 // Returns the settings of one mesh.
 inline ForceSettings force_settings(const EngineSettings &engine, const StepSettings &step,
-                                    const Pose &pose, const NodeField &nodes, int mesh)
+                                    const Pose &pose, const NodeField &nodes, int mesh,
+                                    const Vec3 *receded)
 {
   ForceSettings s;
   s.mesh = static_cast<std::uint32_t>(mesh);
@@ -137,6 +141,7 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.mobility = step.mobility ? step.mobility[mesh] : Mobility();
   s.gives_way = s.mobility.any();
   s.nodes = nodes;
+  s.receded = receded;
   return s;
 }
 
@@ -144,7 +149,7 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
 inline bool are_alike(const StepSettings &a, const StepSettings &b)
 {
   const auto is_of_wall = [](const StepSettings &s) {
-    return !s.mesh_temperature && !s.surface && !s.mobility;
+    return !s.mesh_temperature && !s.surface && !s.mobility && !s.receded;
   };
   return is_of_wall(a) && is_of_wall(b) && a.dt == b.dt && a.update_history == b.update_history &&
          a.synchronous == b.synchronous && a.per_sphere == b.per_sphere &&
@@ -199,13 +204,6 @@ LSDCD_FN void store_extra(const Law &law, const Memory &memory, Real *to)
       for (int j = 0; j < 3; j++) *to++ = memory.extra[3 * k + j];
   for (int k = 0; k < Law::kScalars; k++)
     if (law.stores(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
-}
-
-// Writes what a book keeps behind that.
-template <class Law>
-LSDCD_FN void store_kept(const KeptForces &kept, const Law &law, Real *to)
-{
-  memcpy(to + n_extra(law), &kept, sizeof kept);
 }
 
 // Puts the energy and the speed of an impact, by which a contact begins that no other hands a spring. A sphere that was put
@@ -292,9 +290,10 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       slid_before = sink.book->rows[EnergyRow::slider];
       if constexpr (Law::kRecords) lost_before = dissipated(sink.book->rows);
       const BookedContact<Law> booked = {
-          c, f, law.parts(c, begun, memory, f), weight, set.distance[i], arm};
-      store_kept(sink.book->add(law, settings, s, booked, in, *sink.marks), law,
-                 sink.extra + out.n_contacts * n_stored(law));
+          c,    f, law.parts(c, begun, memory, f), weight, set.distance[i], arm, set.feature[i],
+          nodes};
+      sink.book->add(law, grid.wall, settings, s, booked, in, *sink.marks,
+                     sink.extra + out.n_contacts * n_stored(law));
     }
     if constexpr (Law::kEnergy && Law::kHeat)
       if (law.has_heat() && settings.update)

@@ -151,7 +151,7 @@ LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const Energy
     add_motion(mesh.law, job, mesh.settings.pose, sphere.i, state);
     if (!job.is_booked[k]) job.energy[k] = EnergyRows();
     EnergyBook<Law> book = {job.energy[k]};
-    book.close(mesh.law, mesh.settings, state, marks, job.records);
+    book.close(mesh.law, mesh.grid.wall, mesh.settings, state, marks, job.records);
     if constexpr (Law::kHeat)
       if (mesh.law.has_heat() && mesh.settings.update)
         job.heat_flow[sphere.i] +=

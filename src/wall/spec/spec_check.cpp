@@ -100,12 +100,12 @@ const MeshRule kMeshRules[] = {
     {kNodes, [](const WallSpec &w, const MeshSpec &m) { return m.has_nodes && w.recedes(m); },
      "wear moves this mesh, and its nodes are moved by others: leave one of them out, or give the "
      "mesh a wear factor by which it does not wear"},
-    {kEnergy, [](const WallSpec &w, const MeshSpec &m) { return w.energy && m.has_nodes; },
-     "the work of contacts on nodes that move is not booked: leave energy out, or put the mesh "
-     "into "
-     "a wall of its own"},
-    {kEnergy, [](const WallSpec &w, const MeshSpec &m) { return w.energy && w.recedes(m); },
-     "what contacts lose where wear moves the mesh is not booked: leave energy or deform out"},
+    {kEnergy,
+     [](const WallSpec &w, const MeshSpec &m) {
+       return w.energy && m.has_nodes && w.has_energy_places();
+     },
+     "what contacts dissipate has no triangles where nodes of a mesh move: leave mesh_fields out, "
+     "or put the mesh into a wall of its own"},
     {kEnergy,
      [](const WallSpec &w, const MeshSpec &m) {
        return w.energy && m.body.present && m.body.coat.present;

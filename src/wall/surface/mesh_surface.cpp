@@ -52,6 +52,8 @@ class RecedingSurface final : public MeshSurface {
     return true;
   }
 
+  std::vector<Vec3> receded() const override { return wear_.receded(); }
+
   void end(const StepResults &results, const Step &step) override
   {
     if (step.kind == Step::step) wear_.add(results.contacts(), step.dt, records());

@@ -45,6 +45,8 @@ class MeshSurface {
   // Moves vertices where that is due, but nodes. Returns whether it did: then the grid is to be built again. `cutoff`: 0
   // while there are no spheres. Collective.
   virtual bool change(const Step & /* step */, Real /* cutoff */) { return false; }
+  // Returns by how far change() has moved each vertex (length), where energy is booked; the same on all processes. Else empty.
+  virtual std::vector<Vec3> receded() const { return {}; }
   // Begins a step.
   virtual void begin(const Step & /* step */, Real /* cutoff */) {}
   // Notes what the contacts of a step with spheres do to it.

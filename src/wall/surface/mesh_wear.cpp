@@ -282,6 +282,12 @@ bool MeshWear::recede(const WeldedMesh *mesh, std::int64_t step, std::vector<Vec
   at.resize(pending_.size() / kPerVertex);
   host_.broadcast(at.data(), at.size() * sizeof(Vec3), 0,
                   wall_.shapes ? Receivers::all : Receivers::that_fill_memory);
+  if (wall_.energy) {
+    receded_.resize(at.size());
+    for (std::size_t v = 0; host_.is_first() && v < at.size(); v++)
+      receded_[v] = at[v] - mesh->vertices[v];
+    host_.broadcast(receded_.data(), at.size() * sizeof(Vec3), 0);
+  }
   return true;
 }
 
@@ -316,7 +322,8 @@ void MeshWear::restore(const SurfaceState &was)
 
 std::size_t MeshWear::bytes() const
 {
-  return (pending_.size() + first_size_.size()) * sizeof(Real) + held_.size();
+  return (pending_.size() + first_size_.size()) * sizeof(Real) + held_.size() +
+         receded_.size() * sizeof(Vec3);
 }
 
 }    // namespace lsdcd

@@ -34,9 +34,11 @@ class MeshWear {
   void add(const std::vector<StepContact> &contacts, Real dt, const MeshFeaturesView &features);
 
   // Removes what has worn since the last time. Returns whether vertices move; then `at` has their new places on all
-  // processes that have the mesh. `mesh`: as above, where it is now. Logs once where nodes stay from now on. Throws
-  // InputError where too much has worn for one move. Collective.
+  // processes that have the mesh, and receded() how far they went. `mesh`: as above, where it is now. Logs once where nodes stay
+  // from now on. Throws InputError where too much has worn for one move. Collective.
   bool recede(const WeldedMesh *mesh, std::int64_t step, std::vector<Vec3> &at);
+  // Where energy is booked, of each vertex, on all processes; else empty.
+  const std::vector<Vec3> &receded() const { return receded_; }
 
   // Volumes (length^3), the same on all processes. Removed: between the first surface and that of this step. Held back: worn by
   // factor, and not removed as vertices stay.
@@ -71,6 +73,7 @@ class MeshWear {
   // For each vertex since the last move, on this process: the volume that came off there, and its sum times the unit
   // vectors from spheres to the wall.
   std::vector<Real> pending_;
+  std::vector<Vec3> receded_;    // of the last move
   // On the first process:
   std::vector<char> held_;
   std::vector<Real> first_size_;            // of each face, twice its area at the beginning
