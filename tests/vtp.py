@@ -9,13 +9,27 @@ import xml.etree.ElementTree as ElementTree
 FORMATS = {"Float64": "d", "Int64": "q", "Int32": "i"}
 
 
+ORDERS = {"LittleEndian": "<", "BigEndian": ">"}
+LENGTHS = {"UInt32": "I", "UInt64": "Q"}
+
+
 def read(path):
-    """{name: [numbers]} of the arrays of a .vtp file."""
+    """{name: [numbers]} of the arrays of a .vtp file. Its numbers of points and cells must be those that the arrays have."""
     found = {}
-    for a in ElementTree.parse(path).getroot().iter("DataArray"):
+    root = ElementTree.parse(path).getroot()
+    order, length = ORDERS[root.get("byte_order")], LENGTHS[root.get("header_type")]
+    head = struct.calcsize(order + length)
+    piece = root.find("PolyData/Piece")
+    n_cells = sum(int(piece.get(name, 0)) for name in ("NumberOfPolys", "NumberOfLines"))
+    tuples = {id(a): n for where, n in (("CellData", n_cells), ("Points", int(piece.get("NumberOfPoints"))))
+              for a in piece.iterfind(f"{where}/DataArray")}
+    for a in root.iter("DataArray"):
         data = base64.b64decode(a.text)
-        assert struct.unpack("<Q", data[:8])[0] == len(data) - 8
-        found[a.get("Name")] = [v[0] for v in struct.iter_unpack("<" + FORMATS[a.get("type")], data[8:])]
+        assert struct.unpack(order + length, data[:head])[0] == len(data) - head
+        numbers = [v[0] for v in struct.iter_unpack(order + FORMATS[a.get("type")], data[head:])]
+        assert len(numbers) == int(a.get("NumberOfComponents", 1)) * tuples.get(id(a), len(numbers)), a.get("Name")
+        found[a.get("Name")] = numbers
+    assert len(found["offsets"]) == n_cells
     return found
 
 

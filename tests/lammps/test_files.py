@@ -78,6 +78,18 @@ def test_forces(folder):
     at_most("forces of triangles of a turning mesh sum to the force on it", worst / size, 1e-13)
 
 
+def test_units_of_stress(folder):
+    """A force on one of two triangles of 18 square Angstroms, in bar: LAMMPS has 1.6021765e6 of these an eV/Angstrom^3."""
+    stl.write(folder / "square.stl", stl.square(3))
+    text = lmp.head("-3 3 -3 3 -1 5", units="metal") + "create_atoms 1 single 0.3 0.2 0.49 units box\nset group all diameter 1 density 2\n" + \
+        lmp.pairs() + "fix move all nve/sphere\nfix wall all wall/lsdcd hooke 1 NULL 0 NULL 0 0 mesh square.stl mesh_fields m.vtp every 1\n" \
+        "thermo_style custom step f_wall[3]\nthermo_modify format float %.17g norm no\nthermo 1\nrun 1\n"
+    force = lmp.read_thermo(lmp.run_well(text, folder))[1][1]
+    stress = [s for s in vtp.read(folder / "m.vtp")["normal_stress"] if s]
+    fact("one triangle carries it", len(stress) == 1 and force < -0.005, str((stress, force)))
+    at_most("in the unit of pressure", abs(stress[0] / (-force / 18 * 1.602176634e6) - 1), 1e-7)
+
+
 def same(a, b):
     """Times are sums in another order."""
     return [f for _, f in a] == [f for _, f in b] and all(abs(t - u) < 1e-13 for (t, _), (u, _) in zip(a, b))

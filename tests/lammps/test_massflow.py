@@ -184,7 +184,8 @@ def test_rows(folder):
     """A row for each passage: where and when it was, whatever the processes."""
     wide, expected = "set type 2 diameter 0.25\n", passing(spheres())
     for ranks in (1, 2, 4):
-        lmp.run_well(begin() + wide + forces("every 48 file rows.txt") + "run 100\nrun 60\n", folder, ranks)
+        lmp.run_well(begin() + wide + forces("every 48 file rows.txt") + "run 100\nshell cp rows.txt first.txt\nrun 60\n", folder, ranks)
+        fact(f"when a run has ended its rows are in the file, {ranks} ranks", rows_of(folder / "first.txt") == [row for row in expected if row[0] <= 100])
         fact(f"rows are those of the closed form, {ranks} ranks", rows_of(folder / "rows.txt") == expected, str(rows_of(folder / "rows.txt")[:2]))
     # A restart in the middle of a window, of a run that went on behind it: what it had written there comes again. In 29Sep2021 LAMMPS's
     # time begins anew then.

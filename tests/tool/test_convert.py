@@ -42,9 +42,19 @@ def read_ply(data):
     return x[faces["v"]], n, kind
 
 
+def rows_of_text(data, word):
+    return np.array([line.split()[-3:] for line in data.decode().splitlines() if line.startswith(word)], float)
+
+
 def read_stl_text(data):
-    rows = [line.split()[1:] for line in data.decode().splitlines() if line.startswith("vertex")]
-    return np.array(rows, float).reshape(-1, 3, 3)
+    """Corners, normals."""
+    return rows_of_text(data, "vertex").reshape(-1, 3, 3), rows_of_text(data, "facet normal")
+
+
+def read_stl_binary(data):
+    records = np.frombuffer(data, [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")], offset=84)
+    assert len(records) == int.from_bytes(data[80:84], "little") and not records["attribute"].any()
+    return records["corners"].astype(float), records["normal"].astype(float)
 
 
 def test_written(folder):
@@ -63,8 +73,12 @@ def test_written(folder):
         data = (folder / "out.STL").read_bytes()
         fact(f"{name} in STL are {'text' if name == 'doubles' else 'binary'}",
              data.startswith(b"solid") == (name == "doubles"))
-        got = read_stl_text(data) if name == "doubles" else np.array(stl.read(folder / "out.STL"))
+        got, normals = (read_stl_text if name == "doubles" else read_stl_binary)(data)
         fact(f"{name} in STL are the same bits", np.array_equal(got, wanted))
+        turned = np.cross(got[:, 1] - got[:, 0], got[:, 2] - got[:, 0])
+        turned /= np.linalg.norm(turned, axis=1)[:, None]
+        # Rounding of floats; of doubles, that of differences of 0.1 of numbers of size 1 too.
+        fact(f"{name} in STL have the normals of their corners' order", np.abs(normals - turned).max() < (1e-14 if name == "doubles" else 1e-7))
     told(folder, "convert", "doubles.stl", "-o", "out.stl", "--float")
     fact("--float rounds them", np.array_equal(np.array(stl.read(folder / "out.stl")), FLOATS))
 
@@ -127,7 +141,7 @@ def test_read(folder):
         told(folder, "convert", "doubles.stl", "-o", f"there.{ending}")
         told(folder, "convert", f"there.{ending}", "-o", "back.stl")
         fact(f"there and back by {ending} are the same bits",
-             np.array_equal(read_stl_text((folder / "back.stl").read_bytes()), DOUBLES))
+             np.array_equal(read_stl_text((folder / "back.stl").read_bytes())[0], DOUBLES))
         told(folder, "convert", f"there.{ending}", "-o", "again.stl", "--units", "cm")
         fact("and in centimetres", abs(told(folder, "inspect", "again.stl")["volume"] /
              told(folder, "inspect", "doubles.stl")["volume"] / 1e-6 - 1) < 1e-12)
