@@ -12,6 +12,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <unordered_map>
 #include <vector>
@@ -27,6 +28,8 @@ using Candidate = FixMassflowLsdcdKokkos::Candidate;
 
 constexpr int kRow = FixMassflowLsdcdKokkos::kRow;
 constexpr std::size_t kLeastRoom = 4096;    // for candidates
+constexpr std::uint64_t kReadOfAtoms =
+    X_MASK | V_MASK | RMASS_MASK | RADIUS_MASK | TAG_MASK | TYPE_MASK | MASK_MASK;
 
 // Near the surface since all atoms were last looked at. A bit of an atom's flags beside those of the plain fix.
 constexpr unsigned kNear = 1u << 8, kDelete = FixMassflowLsdcdKokkos::kToDelete;
@@ -334,7 +337,7 @@ void FixMassflowLsdcdKokkos::box_has_changed(const lsdcd::PeriodicBox & /*before
 
 void FixMassflowLsdcdKokkos::begin_at_atoms()
 {
-  atomKK->sync(execution_space, X_MASK);
+  lsdcd::bring_after_commands(lmp, execution_space, kReadOfAtoms);
   change_on_device();
   const auto x = lsdcd::rows_of(atomKK->k_x.view<DeviceSpace>());
   using Number = std::remove_pointer_t<decltype(x.at)>;
@@ -369,8 +372,7 @@ void FixMassflowLsdcdKokkos::look_at_atoms()
 
 void FixMassflowLsdcdKokkos::run_kernel(const int *of, int n)
 {
-  atomKK->sync(execution_space,
-               X_MASK | V_MASK | RMASS_MASK | RADIUS_MASK | TAG_MASK | TYPE_MASK | MASK_MASK);
+  atomKK->sync(execution_space, kReadOfAtoms);
   change_on_device();
   const auto x = lsdcd::rows_of(atomKK->k_x.view<DeviceSpace>()),
              v = lsdcd::rows_of(atomKK->k_v.view<DeviceSpace>());

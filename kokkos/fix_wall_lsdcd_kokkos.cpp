@@ -20,10 +20,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
+
+// What a step reads of atoms.
+static constexpr std::uint64_t kReadOfSpheres =
+    X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TYPE_MASK;
 
 template <class DeviceType>
 FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char **arg) :
@@ -147,6 +152,7 @@ void FixWallLsdcdKokkos<DeviceType>::write_files()
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::setup(int vflag)
 {
+  lsdcd::bring_after_commands(lmp, execution_space, kReadOfSpheres);
   FixWallLsdcd::setup(vflag);
   if (rerun) write_files();
 }
@@ -232,8 +238,7 @@ bool FixWallLsdcdKokkos<DeviceType>::others_only_add() const
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::begin_step(lsdcd::StepInput &input)
 {
-  atomKK->sync(execution_space,
-               X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TYPE_MASK);
+  atomKK->sync(execution_space, kReadOfSpheres);
   if (!lsdcd::kOnCpu<DeviceType> && input.step.kind == lsdcd::Step::step) input.when = when;
   wall->begin(spheres(), input);
 }
@@ -253,9 +258,7 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::finish_step()
 {
   const bool runs = wall->step_state() != lsdcd::StepState::none || !node_atoms.empty();
-  if (runs)
-    atomKK->sync(execution_space, X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK |
-                                      MASK_MASK | TYPE_MASK | F_MASK | TORQUE_MASK);
+  if (runs) atomKK->sync(execution_space, kReadOfSpheres | F_MASK | TORQUE_MASK);
   FixWallLsdcd::finish_step();
   if (runs) atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
 }

@@ -103,6 +103,17 @@ inline void bring_no_atoms(LAMMPS_NS::Fix &fix, LAMMPS_NS::ExecutionSpace space)
   fix.datamask_read = fix.datamask_modify = EMPTY_MASK;
 }
 
+// Brings a device atoms as commands between runs left them on the host: set and velocity change them there without a word to Kokkos.
+// LAMMPS does so itself all through a setup until it calls setup() of fixes.
+inline void bring_after_commands(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::ExecutionSpace space,
+                                 std::uint64_t mask)
+{
+  const int before = lmp->kokkos->auto_sync;
+  lmp->kokkos->auto_sync = 1;
+  static_cast<LAMMPS_NS::AtomKokkos *>(lmp->atom)->sync(space, mask);
+  lmp->kokkos->auto_sync = before;
+}
+
 // Runs work as LAMMPS runs fixes without /kk: all atoms go to the host before, and count as changed there after.
 template <class Work>
 void run_on_host(LAMMPS_NS::LAMMPS *lmp, Work &&work)

@@ -32,6 +32,7 @@ ON_KOKKOS = ON_HOST and "-sf" in FLAGS
 # Atoms are sorted and exchanged by Kokkos's kernels, as on a GPU, which fix wall/gran would not allow; on a host without one
 # Kokkos leaves that to LAMMPS.
 DEVICE_MOVES = "device" in FLAGS
+ON_GPU = ON_KOKKOS and "g" in FLAGS
 # What starts several processes of it, and how many at most: those of MPICH never give up a core while they wait.
 MPIRUN = os.environ.get("LSDCD_MPIRUN", "mpirun --oversubscribe").split()
 MOST_RANKS = int(os.environ.get("LSDCD_MOST_RANKS", "1000"))

@@ -384,7 +384,7 @@ thermo_modify   format float %.17g
         one, two = seen["suffix off"], seen[""]
         last = two[0][-1]
         fact(f"grains pass both ways, {ranks} ranks", last[2] > 40 and (words or last[4] > 10), str(last))
-        if lmp.DEVICE_MOVES:    # atoms are in another order, and neighbouring paths part
+        if lmp.DEVICE_MOVES or lmp.ON_GPU:    # atoms are in another order, or rounded otherwise, and neighbouring paths part
             fact(f"numbers as of the plain fixes, {ranks} ranks", len(one[1]) == len(two[1]), f"{one[0][-1]} {last}")
         else:
             fact(f"totals and rows as of the plain fixes, to the bit, {ranks} ranks", one == two, f"{one[0][-1]} {last}")

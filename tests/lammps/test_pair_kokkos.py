@@ -67,6 +67,8 @@ set group all temperature v_T
 fix h all heat/flow constant 1.0
 compute t all property/atom temperature heatflow
 timestep """).replace(COLUMNS, COLUMNS + " c_t[1] c_t[2]")
+        if lmp.ON_GPU:
+            return lmp.refused(law, text, folder, "heat does not work for atoms on a GPU", host=True)
     first = as_plain(law, folder, text)
     last = first[max(first)]
     fact("grains touch", sum(abs(row[9]) > 1e-3 for row in last.values()) > 20, "")
