@@ -80,6 +80,13 @@ void FixSpringsLsdcdKokkos<DeviceType>::collect()
 }
 
 template <class DeviceType>
+void FixSpringsLsdcdKokkos<DeviceType>::forget()
+{
+  FixSpringsLsdcd::forget();
+  on_device = false;
+}
+
+template <class DeviceType>
 int FixSpringsLsdcdKokkos<DeviceType>::largest_packed_size() const
 {
   return on_device ? engine->largest_packed_size(atom->nlocal) : partners.largest_packed_size();

@@ -34,6 +34,7 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
   void set_laws(int width, bool booked, const std::string &kinds,
                 const std::function<unsigned(int, int)> &flips) override;
   void collect() override;
+  void forget() override;
   int largest_packed_size() const override;
   lsdcd::Partners &of_atoms() override;
   const tagint *tags() override;

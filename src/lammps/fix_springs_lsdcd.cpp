@@ -12,6 +12,7 @@
 #include "comm.h"
 #include "force.h"
 #include "memory.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -205,8 +206,23 @@ void FixSpringsLsdcd::post_run()
   keep_names();
 }
 
+// No dump has the springs of its snapshots, and what is there is of another time.
+void FixSpringsLsdcd::setup_pre_exchange()
+{
+  if (watch.sees_snapshot(*update)) forget();
+  pre_exchange();
+}
+
+void FixSpringsLsdcd::forget()
+{
+  partners = lsdcd::Partners(partners.width());
+  partners.grow(atom->nmax);
+  in_pairs = false;
+}
+
 void FixSpringsLsdcd::init()
 {
+  watch.init(*update);
   if (!between_runs) return;
   if (keeps()) rename_partners();
   keep_names();

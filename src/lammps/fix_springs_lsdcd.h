@@ -11,6 +11,7 @@
 
 #include "engine/results/booked_energy.h"
 #include "lammps/own_messages.h"
+#include "lammps/rerun_watch.h"
 #include "pair/partners.h"
 
 #include <functional>
@@ -26,7 +27,7 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
 
   int setmask() override;
   void init() override;
-  void setup_pre_exchange() override { pre_exchange(); }
+  void setup_pre_exchange() override;
   void setup_post_neighbor() override { post_neighbor(); }
   void pre_exchange() override;
   void post_neighbor() override;
@@ -71,6 +72,8 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   // Brings what the pairs of the last step keep to their atoms.
   virtual void collect();
   void tell_owners();
+  // Leaves pairs without what they have kept.
+  virtual void forget();
   // IDs of atoms on the CPU.
   virtual const tagint *tags() { return atom->tag; }
   // Keeps the IDs that atoms have, for rename_partners().
@@ -99,6 +102,7 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   // Commands between runs may give atoms other IDs: that under which partners know an atom, 0: it is new.
   bool between_runs = true;
   std::vector<tagint> known_as;
+  RerunWatch watch;
 
  private:
   void bring_to_atoms();

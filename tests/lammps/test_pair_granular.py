@@ -301,6 +301,32 @@ def test_hybrid_of_types(folder):
     at_most("hybrid", lmp.largest_difference(plain, hybrid), 1e-10)
 
 
+def test_rerun(folder):
+    """In a rerun springs are 0, also in a script that has run before: forces are those of a script that begins with the rerun."""
+    columns, law = "id type x y z vx vy vz", ours("* * hertz/material 1e4 0 0.3 tangential mindlin NULL 0 0.4 damping velocity")
+    lmp.run_well(script(law, steps=100, every=1000) + f"""\
+dump t all custom 20 path {columns}
+dump_modify t format float %.17g sort id
+run 100
+undump t
+undump d
+dump d all custom 20 out {COLUMNS}
+dump_modify d format float %.17g sort id
+rerun path dump x y z vx vy vz
+""", folder)
+    again = lmp.read_dump(folder / "out")
+    lmp.run_well(script(law, steps=200, every=1000).replace("run 200\n", "") + f"""\
+undump d
+dump d all custom 20 fresh {COLUMNS}
+dump_modify d format float %.17g sort id
+rerun path dump x y z vx vy vz
+""", folder)
+    fresh = lmp.read_dump(folder / "fresh")
+    fact("snapshots", len(again) == 6, str(sorted(again)))
+    forces = [{step: {i: row[9:12] for i, row in rows.items()} for step, rows in dump.items()} for dump in (again, fresh)]
+    at_most("forces", lmp.largest_difference(*forces), 1e-12)
+
+
 def test_excluded(folder):
     """Pairs that neigh_modify exclude leaves out do not act."""
     gas = states(folder, ours("* * " + GRANULAR), more="neigh_modify exclude type 1 1")
