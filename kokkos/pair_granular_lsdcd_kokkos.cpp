@@ -119,7 +119,7 @@ lsdcd::PairInput PairGranularLsdcdKokkos<DeviceType>::step()
   s.list.full = full;
   std::copy_n(force->special_lj, 4, s.factor);
   s.dt = time_step();
-  s.update = update->setupflag == 0;
+  s.update = time_passes();
   return s;
 }
 

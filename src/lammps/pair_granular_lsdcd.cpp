@@ -452,6 +452,13 @@ double PairGranularLsdcd::time_step() const
   return lsdcd::step_of_level(*update, springs->level);
 }
 
+// A setup computes what is there, and a minimization moves grains by other ways than their velocities.
+bool PairGranularLsdcd::time_passes() const
+{
+  constexpr int kMinimization = 2;
+  return update->setupflag == 0 && update->whichflag != kMinimization;
+}
+
 lsdcd::PairJob PairGranularLsdcd::job()
 {
   lsdcd::PairJob job = {};
@@ -482,7 +489,7 @@ lsdcd::PairJob PairGranularLsdcd::job()
   job.law_of = law_of.data();
   job.n_types = n_types + 1;
   job.dt = time_step();
-  job.update = update->setupflag == 0;
+  job.update = time_passes();
   return job;
 }
 

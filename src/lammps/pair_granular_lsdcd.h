@@ -48,6 +48,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   virtual std::vector<double> kept_numbers(int i, int j);
   void fill_masses();
   double time_step() const;
+  bool time_passes() const;
   int kept_width() const;    // numbers that a touching pair keeps
   void add_booked(const lsdcd::EnergyRows &rows, bool is_setup, double dt);
   int law_index(int i, int j) const { return law_of[i * (n_types + 1) + j]; }

@@ -323,3 +323,22 @@ def test_refusals(folder):
                          (("run 1", "run_style respa 2 2 pair 1\nrun 1"), "run_style verlet")):
         fact(f"{change} is in the script", change[0] in script)
         lmp.refused(change[1], script.replace(*change), folder, word)
+
+
+def test_minimization(folder):
+    """No time passes in a minimization: springs stay, and nothing is dissipated, though grains have velocities."""
+    law = "hertz/material 1e4 5 0.3 tangential mindlin NULL 1 0.4 rolling sds 300 2 0.3"
+    hold = "fix move all nve/noforce\nset group one omega 0.5 0.3 0.2\n"
+    shown = "write_dump all custom {} id fx fy fz tqx tqy tqz modify sort id format float %.17g\n"
+
+    def end(more):
+        text = lmp.head("-3 3 -3 3 -3 3") + TWO.format(law=law, dt=1e-4, b="0.98 0 0", move=hold, run="run 100\n" + shown.format("before") + more)
+        return books(lmp.run_well(text, folder))[-1]
+
+    moved = end("")
+    stayed = end("fix still all setforce 0 0 0\nminimize 0 0 5 5\nunfix still\nrun 0\n" + shown.format("after"))
+    before, after = ({0: next(iter(lmp.read_dump(folder / name).values()))} for name in ("before", "after"))
+    fact("springs press", abs(before[0][1][1]) > 0.01, str(before))
+    at_most("forces and torques", lmp.largest_difference(before, after), 1e-12)
+    for row in (*CAUSES, *OTHERS, "remainder"):
+        at_most(row, abs(stayed[row] - moved[row]), 1e-12)
