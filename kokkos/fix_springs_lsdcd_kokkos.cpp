@@ -41,6 +41,7 @@ void FixSpringsLsdcdKokkos<DeviceType>::need_on_device(int n_atoms)
 {
   if (!on_device) engine->from_cpu(partners, n_atoms);
   on_device = true;
+  engine->grow(n_atoms);    // fixes may have created atoms since
 }
 
 template <class DeviceType>
@@ -146,7 +147,6 @@ int FixSpringsLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
   which.template sync<DeviceType>();
   from.template sync<DeviceType>();
   buffer.clear_sync_state();
-  engine->grow(atom->nlocal + n);
   const int size = engine->pack(n, which.template view<DeviceType>().data(),
                                 from.template view<DeviceType>().data(),
                                 buffer.template view<DeviceType>().data());
@@ -170,7 +170,6 @@ void FixSpringsLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBu
   if (lsdcd::sends_from_host<DeviceType>(space)) buffer.template modify<LMPHostType>();
   buffer.template sync<DeviceType>();
   to.template sync<DeviceType>();
-  engine->grow(atom->nlocal);
   engine->unpack(n, to.template view<DeviceType>().data(),
                  buffer.template view<DeviceType>().data(), n_first, second);
   if (between_runs) keep_names();
@@ -181,7 +180,6 @@ void FixSpringsLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType,
 {
   if (!keeps()) return;
   need_on_device(atom->nlocal);
-  engine->grow(atom->nlocal);
   using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
   sorter.sort(LMPDeviceType(), Ints(engine->first(), atom->nlocal));
   sorter.sort(LMPDeviceType(), Ints(engine->count(), atom->nlocal));

@@ -74,6 +74,25 @@ timestep """).replace(COLUMNS, COLUMNS + " c_t[1] c_t[2]")
     fact("grains touch", sum(abs(row[9]) > 1e-3 for row in last.values()) > 20, "")
 
 
+@pytest.mark.parametrize("newton", ["off", "on"])
+def test_inserted(folder, newton):
+    """Grains come into a box that is empty, and soon touch: more each time than there were."""
+    text = lmp.head(box="0 6 0 6 0 6", boundary="p p p", newton=newton) + f"""\
+neighbor 0.1 bin
+neigh_modify delay 0 every 1 check yes
+{ours("* * " + FULL)}
+region all block 0 6 0 6 0 6
+fix in all insert/lsdcd region all numberrate 8000 number 200 diam one 0.9 dens 1 vel 0 0 0 jitter 10 every 20
+fix i all nve/sphere
+timestep {DT}
+run 20
+{dump("out", 50)}run 130
+"""
+    first = as_plain(f"newton {newton}", folder, text, lists=LISTS if newton == "off" else LISTS[:1])
+    last = first[max(first)]
+    fact("grains touch", sum(abs(row[9]) > 1e-3 for row in last.values()) > 20, str(len(last)))
+
+
 def test_new_ids(folder):
     """Grains that get other IDs between runs keep their springs, also where they go into a restart file before the next run."""
     text = script(ours("* * " + FULL)) + "group gone id 3:200:9\ndelete_atoms group gone\n"
