@@ -135,6 +135,17 @@ def test_atoms_that_come_and_go(folder):
                 lmp.largest_difference(plain, kokkos), 1e-9)
 
 
+def test_exchange_behind_restart_files(folder):
+    """A restart file takes springs to the CPU. Those of grains that leave their process in the next step, whichever they are in LAMMPS's
+    order, go with them."""
+    text = scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 50) + "restart 1 r1 r2\nrun 600\n"
+    for ranks in (2, 4):
+        plain, _ = go(folder, PLAIN, text, ranks)
+        kokkos, _ = go(folder, lmp.FLAGS, text, ranks)
+        fact(f"grains touch the floor, {ranks} ranks", sum(row[9] > 0 for row in plain[600].values()) > 20)
+        at_most(f"as the plain fix, {ranks} ranks", lmp.largest_difference(plain, kokkos), 1e-9)
+
+
 @NOT_ON_DEVICE
 def test_restart_into_the_other_form(folder):
     """A form takes up the springs of the other: else contacts would begin anew."""

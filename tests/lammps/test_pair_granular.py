@@ -283,6 +283,27 @@ def test_levels_of_respa(folder):
     at_most("respa", lmp.largest_difference({k // 2: v for k, v in half.items()}, levels), 1e-10)
 
 
+def test_minimization(folder):
+    """In a minimization, which reneighbours, and after it contacts are those of LAMMPS. None slides: LAMMPS shortens springs that do
+    already where a minimization is set up, with the velocities that it has set to 0."""
+    law = "hooke/history 1e4 NULL 30 NULL 1e4 1"
+    dumps = []
+    for pair in (ours("* * law " + law), f"pair_style gran/{law}\npair_coeff * *"):
+        out = lmp.run_well(script(pair, 60, 30, more="min_style quickmin\nmin_modify dmax 0.1\n") + "minimize 0 0 300 1000\nrun 60\n", folder)
+        built = re.findall(r"Neighbor list builds = (\d+)", out)
+        fact("reneighbours in the minimization", len(built) == 3 and int(built[1]) > 0, str(built))
+        dumps.append(lmp.read_dump(folder / "out"))
+    at_most("minimization", lmp.largest_difference(*dumps), 1e-8)
+
+
+def test_neighbours_by_size(folder):
+    """LAMMPS asks the style for cutoffs of radii where it sorts grains by their size."""
+    law = ours("* * " + GRANULAR)
+    plain = states(folder, law, name="plain")
+    by_size = states(folder, law, more="neighbor 0.01 multi\nneigh_modify collection/interval 2 1.0 1.05")
+    at_most("by size", lmp.largest_difference(plain, by_size), 1e-10)
+
+
 def test_suffix_and_hybrid(folder):
     """-sf lsdcd takes the place of granular, and hybrid/overlay adds to it."""
     plain = states(folder, ours("* * " + GRANULAR), name="plain")

@@ -9,6 +9,9 @@ two pieces through a file (equal to the last bit), and a run in one piece only
 without damping (equal but for rounding of the repeated evaluation).
 """
 
+import re
+import struct
+
 import pytest
 
 import lmp
@@ -92,6 +95,30 @@ def test_meshes(folder):
     fact("meshes: springs of another one with as many triangles are dropped", "6 atoms lose their "
          "springs: the restart file was written with a different mesh" in text)
     scene.write_floor(folder / "floor.stl")
+
+
+STATES = {    # fix: what another ID begins without
+    "wall": "springs, motion, loads and wear",
+    "in": "what was inserted",
+    "flow": "what has passed",
+}
+
+
+def test_unusable_data(folder):
+    """Data of a later version, and damaged ones, are refused by the fix that they are of, with what to do. Behind the mark are the
+    version and a checksum."""
+    fixes = scene.forces(LAWS["hooke_history"]) + "region air block -5 5 -5 5 5 7 units box\n" + \
+        "fix in all insert/lsdcd region air diam one 0.5 dens 1 number 5\nfix flow all massflow/lsdcd mesh floor.stl move 0 0 3\n"
+    lmp.run_well(FEW + fixes + "run 10\nwrite_restart good.restart\n", folder)
+    good = (folder / "good.restart").read_bytes()
+    marks = [m.start() for m in re.finditer(re.escape(struct.pack("<d", -0x4c5344434453)), good)]
+    fact("each fix has data", len(marks) == len(STATES), str(marks))
+    for (fix, without), at in zip(STATES.items(), marks):
+        for number, says in ((1, "are of a later version"), (2, "are damaged")):
+            place = at + 8 * number
+            (folder / "bad.restart").write_bytes(good[:place] + struct.pack("<d", 99) + good[place + 8:])
+            lmp.refused(f"{fix}: {says}", scene.SETTINGS + "read_restart bad.restart\n" + fixes + "run 0\n", folder, f"Fix {fix} ",
+                        f"the restart file cannot be used: the data of the", says, f"give the fix another ID to begin without {without}")
 
 
 @pytest.mark.parametrize("name", LAWS)

@@ -37,6 +37,31 @@ def prepare(folder):
     write_box(folder)
 
 
+def test_means_and_energy(folder):
+    """Rows of means are what LAMMPS averages of the mesh's row; rows of energy are of a mesh each, and the vector is their sum."""
+    means, energy = range(42, 48), range(55, 73)
+    averaged = "".join(f"variable v{r}_{c} equal f_wall[{r}][{c}]\n" for r in (1, 5) for c in range(1, 7)) + \
+        "fix by_lammps all ave/time 1 500 500 " + " ".join(f"v_v{r}_{c}" for r in (1, 5) for c in range(1, 7)) + "\n"
+    text = go(folder, six(LAWS["hertz_history"], {"zlo": "wiggle z 0.1 0.05"}, "average 500 energy"), "m", 3000, every=500, more=averaged + thermo(
+        " ".join([f"f_by_lammps[{k}]" for k in range(1, 13)] + [f"f_wall[{r}][{c}]" for r in (1, 5) for c in means] +
+                 [f"f_wall[{c}]" for c in energy] + [f"f_wall[{r}][{c}]" for r in range(1, 7) for c in energy]), 500))[1]
+    rows, n = [row[1:] for row in lmp.read_thermo(text)[1:]], len(energy)
+    # 500 numbers, added up in the same order, but by LAMMPS in another way.
+    at_most("means of meshes", max(abs(a - b) for row in rows for a, b in zip(row[:12], row[12:24])), 1e-12 * max(
+        abs(a) for row in rows for a in row[:12]))
+    fact("both meshes were pushed", min(max(abs(row[k]) for row in rows) for k in (0, 8)) > 0, str(rows[-1][:12]))
+    of_all, of_meshes = rows[-1][24:24 + n], [rows[-1][24 + n * k:24 + n * (k + 1)] for k in range(1, 7)]
+    for c in range(n):
+        size = sum(abs(row[c]) for row in of_meshes)
+        at_most(f"energy: {c + 55} is of all rows", abs(of_all[c] - sum(row[c] for row in of_meshes)), 1e-12 * size + 1e-15 * of_all[14])
+    work = [row[14] for row in of_meshes]
+    fact("each mesh has its own contact work", len(set(work)) == 6 and all(work), str(work))
+    for row in of_meshes:    # contact work less dissipated, other losses, drive and held
+        at_most("the remainder of a mesh is that of its row", abs(row[17] - (row[14] - sum(row[5:14]) - row[16])), 1e-12 * abs(row[14]))
+    fact("the mesh that moves alone drives", [k for k, row in enumerate(of_meshes) if row[15]] == [list(FACES).index("zlo")],
+         str([row[15] for row in of_meshes]))
+
+
 def test_outputs(folder):
     """Rows of the array are of a mesh each, and the vector is their sum."""
     n = 11

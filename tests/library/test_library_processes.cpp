@@ -222,6 +222,27 @@ TEST_F(processes, refuse_together_what_one_gives_wrongly)
   });
 }
 
+TEST_F(processes, refuse_together_nodes_that_differ)
+{
+  api::WallSpec spec = floor();
+  spec.meshes[0].nodes_by_caller = true;
+  lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
+    const Process process(host);
+    for (const bool differ : {false, true})
+      for (const bool in_place : {true, false}) {
+        lsdcd::Wall wall(spec, &process.options);
+        Grains mine(host.rank(), 0.25, 0.49);
+        std::vector<double> x = wall.nodes(0), v(x.size(), 0);
+        (in_place ? x : v)[4] += differ && host.rank() == 1 ? 0.125 : 0.25;
+        wall.set_nodes(0, x, v);
+        EXPECT_EQ(has(text_of([&] { mine.step(wall); }),
+                      "nodes given by lsdcd_wall_set_nodes() do: call it on all"),
+                  differ)
+            << in_place;
+      }
+  });
+}
+
 TEST_F(processes, are_told_of_a_callback_that_fails)
 {
   lsdcd::FakeHost host;

@@ -130,8 +130,12 @@ def test_read(folder):
     check_roof(folder, "roof.obj")
     faces = "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in [*SIDES, FLOOR])
     points = "".join("{} {} {}\n".format(*x) for x in ROOF)
-    (folder / "roof.off").write_text("OFF\n# roof\n5 5 0\n" + points + faces)
-    check_roof(folder, "roof.off")
+    # 65536 bytes of a file are looked at first.
+    for head in ("OFF\n# roof\n", f"OFF\n# {70000 * '-'}\n", f"# {70000 * '-'}\nOFF\n", f"# {65531 * '-'}\nOFF\n"):
+        (folder / "roof.off").write_text(head + "5 5 0\n" + points + faces)
+        check_roof(folder, "roof.off")
+    (folder / "no.off").write_text("no\n" * 40000)
+    refused(folder, "convert no.off -o none.stl".split(), "no.off, line 1: 'no' found where 'OFF' is expected")
     head = ("ply\nformat {} 1.0\nelement vertex 5\nproperty {t} x\nproperty {t} y\nproperty {t} z\n"
             "element face 5\nproperty list uchar int vertex_indices\nend_header\n")
     (folder / "text.ply").write_text(head.format("ascii", t="float") + points + faces)

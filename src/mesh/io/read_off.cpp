@@ -298,7 +298,10 @@ ReadMesh read_off(const std::string &path)
   const auto check = [&](const char *beginning, std::size_t n, std::size_t) {
     const auto word = TextWords(beginning, n, path, kOffStyle).next_word();
     std::int64_t number = 0;
-    if (!OffHeader().read(word) && !read_integer(word, number)) read_off_bytes(beginning, n, path);
+    // Else a comment before it is that long.
+    const bool is_whole = word.data() + word.size() < beginning + n;
+    if (is_whole && !OffHeader().read(word) && !read_integer(word, number))
+      read_off_bytes(beginning, n, path);
     return kAllBytes;
   };
   const FileBytes bytes = read_whole_file(path, check);
