@@ -127,6 +127,8 @@ template <class DeviceType>
 void PairGranularLsdcdKokkos<DeviceType>::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
+  if (adapts) atomKK->sync(Host, RADIUS_MASK | TYPE_MASK | MASK_MASK | TAG_MASK);
+  check_growth();
   bring_masses();
   atomKK->sync(execution_space, X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK |
                                     TYPE_MASK | MASK_MASK | F_MASK | TORQUE_MASK);

@@ -283,7 +283,9 @@ void PairGranularLsdcd::find_fixes()
 {
   frozen = 0;
   rigid = nullptr;
+  adapts = false;
   for (Fix *fix : lsdcd::host_fixes(*modify)) {
+    if (std::strncmp(fix->style, "adapt", 5) == 0) adapts = true;
     if (std::strncmp(fix->style, "freeze", 6) == 0) {
       if (frozen) fatal("there are two fixes freeze: only one is allowed");
       frozen = fix->groupbit;
@@ -338,11 +340,11 @@ double PairGranularLsdcd::reach(int i, int j, double radius, double other) const
 double PairGranularLsdcd::init_one(int i, int j)
 {
   const double own = coeffs[law_index(i, j)].cutoff;
-  if (own > 0) return own;
-  if (cutoff > 0) return cutoff;
   const Radii a = radii[i], b = radii[j];
-  const double most = std::max({reach(i, j, a.moving, b.moving), reach(i, j, a.frozen, b.moving),
-                                reach(i, j, a.moving, b.frozen)});
+  // Grains that touch further apart than a given cutoff would do so in one process, and not across a border.
+  const double most =
+      std::max({reach(i, j, a.moving, b.moving), reach(i, j, a.frozen, b.moving),
+                reach(i, j, a.moving, b.frozen), own > 0 ? own : std::max(cutoff, 0.0)});
   if (most > 0) return most;
   // Grains of a type that are not there yet: LAMMPS takes the size of bins from the least cutoff.
   double largest = 0;
@@ -361,6 +363,32 @@ double PairGranularLsdcd::radii2cut(double radius, double other)
   for (const lsdcd::ContactLaw &law : numbers) pull_off = std::max(pull_off, law.pull_off());
   const double sum = radius + other;
   return sum > 0 ? sum + pull_off * std::cbrt(radius * other / sum) : 0;
+}
+
+// Lists are of the radii when they were made, and reach as far as those at the begin of the run. Half of the skin is for motion.
+void PairGranularLsdcd::check_growth()
+{
+  if (!adapts) return;
+  const double spare = neighbor->skin / 4;
+  if (neighbor->ago == 0) {
+    listed_radius.assign(atom->radius, atom->radius + atom->nlocal);
+    for (int i = 0; i < atom->nlocal; i++) {
+      const Radii &r = radii[atom->type[i]];
+      if (atom->radius[i] > spare + (atom->mask[i] & frozen ? r.frozen : r.moving))
+        fatal_here("the radius of atom " + std::to_string(atom->tag[i]) + " has grown to " +
+                   lsdcd::number_text(atom->radius[i]) +
+                   ", for which contacts would be missed: end the run before the largest radius "
+                   "has grown by a quarter of the skin, as by 'run N every M NULL', or make the "
+                   "skin larger (neighbor)");
+    }
+    return;
+  }
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->radius[i] > spare + listed_radius[i])
+      fatal_here("the radius of atom " + std::to_string(atom->tag[i]) +
+                 " has grown by more than a quarter of the skin since neighbor lists were made, "
+                 "and contacts would be missed: write 'neigh_modify check no' with a smaller "
+                 "'every'");
 }
 
 void PairGranularLsdcd::tell_laws()
@@ -496,6 +524,7 @@ lsdcd::PairJob PairGranularLsdcd::job()
 void PairGranularLsdcd::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
+  check_growth();
   fill_masses();
   lsdcd::PairJob step = job();
   if (kept_width() > 0) {

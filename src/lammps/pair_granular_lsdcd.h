@@ -47,6 +47,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   virtual void request_list();
   virtual std::vector<double> kept_numbers(int i, int j);
   void fill_masses();
+  void check_growth();
   double time_step() const;
   bool time_passes() const;
   int kept_width() const;    // numbers that a touching pair keeps
@@ -87,6 +88,8 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::vector<lsdcd::ContactLaw> numbers;    // of each law
   std::vector<int> law_of;                   // of types i and j at i * (n_types + 1) + j
   bool has_heat = false, books = false;
+  bool adapts = false;                         // there is a fix adapt, which may change radii
+  std::vector<double> listed_radius;           // of atoms when the list was made, where there is
   class FixSpringsLsdcd *springs = nullptr;    // null: no law has kept anything yet
   class Fix *rigid = nullptr;
   int frozen = 0;                // bit of the group of fix freeze

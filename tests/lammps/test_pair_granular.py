@@ -347,6 +347,40 @@ rerun path dump x y z vx vy vz
     at_most("forces", lmp.largest_difference(*forces), 1e-12)
 
 
+ACROSS = """\
+region b block 0 4 0 4 0 4
+create_box 1 b
+create_atoms 1 single {} 2 2
+create_atoms 1 single {} 2 2
+set group all diameter 1 density 1
+{}
+fix i all nve/noforce
+"""
+
+
+def test_short_cutoff(folder):
+    """Grains that touch further apart than a cutoff that is given act on each other, also across a periodic face."""
+    for style, coeff in (("granular/lsdcd", ""), ("granular/lsdcd 0.3", ""), ("granular/lsdcd", "cutoff 0.3")):
+        law = ours(f"* * hertz 1e4 0 tangential linear_nohistory 0 0 damping velocity {coeff}", style=style)
+        lmp.run_well(settings() + ACROSS.format(0.3, 3.4, law) + dump("out", 1) + "run 0\n", folder)
+        push = lmp.read_dump(folder / "out")[0][1][9]
+        at_most(f"{style} {coeff}: the push across the face", abs(push / (1e4 * 0.1 * (0.25 * 0.1)**0.5) - 1), 1e-10)
+
+
+def test_growth(folder):
+    """Radii that fix adapt makes larger than lists are for are an error, whether lists are made anew or not; runs begin with new ones."""
+    law = ours("* * hertz 1e4 0 tangential linear_nohistory 0 0 damping velocity")
+    text = settings() + "atom_style sphere 1\n" + ACROSS.format(1, 2.5, law) + """\
+variable d equal 1+step*0.001
+fix grow all adapt 1 atom diameter v_d
+""" + dump("out", 700)
+    for check, says in (("yes", "since neighbor lists were made"), ("no", "end the run before")):
+        lmp.refused(f"check {check}", text + f"neigh_modify delay 0 every 1 check {check}\nrun 700\n", folder, says)
+    lmp.run_well(text + "run 700 every 20 NULL\n", folder)
+    push = lmp.read_dump(folder / "out")[700][1][9]
+    at_most("the push", abs(push / (-1e4 * 0.2 * (0.425 * 0.2)**0.5) - 1), 1e-10)
+
+
 def test_excluded(folder):
     """Pairs that neigh_modify exclude leaves out do not act."""
     gas = states(folder, ours("* * " + GRANULAR), more="neigh_modify exclude type 1 1")
