@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // How springs are handed on from one step's contacts to the next's.
+#include "contact/feature_turn.h"
 #include "contact/history.h"
 #include "support/meshes.h"
 #include "support/random.h"
@@ -65,6 +66,25 @@ TEST(transport, quarter_turn_takes_the_old_normal_to_the_opposite_side)
 {
   const Vec3 h = transport({1, 0, 0}, {0, 0, 1}, {1, 0, 0});
   EXPECT_EQ(h, (Vec3{0, 0, -1}));
+}
+
+// From x to y: all turns about z by a right angle.
+TEST(turn_with_feature, is_the_smallest_turn_of_an_edge_that_no_face_has)
+{
+  const int edges[] = {0, 1}, edge_first[] = {0, 0};
+  MeshTopologyView mesh = {};
+  mesh.edges = edges;
+  mesh.edge_first = edge_first;
+  mesh.n_edges = 1;
+  mesh.n_vertices = 2;
+  const Vec3 from[] = {{1, 0, 0}, {3, 0, 0}}, to[] = {{0, 5, 0}, {0, 6, 0}};
+  Spring spring = {{1, 2, 3}, {0, 0.6, 0.8}, feature_code(FeatureKind::edge, 0), 0};
+  Vec3 beside = {4, 5, 6};
+  turn_with_feature({mesh, nullptr, from, to}, spring, &beside, 1);
+  const Real tolerance = 8 * 16 * kRoundoff;    // of numbers up to 6, as above
+  EXPECT_LT(norm(spring.normal - Vec3{-0.6, 0, 0.8}), tolerance);
+  EXPECT_LT(norm(spring.shear - Vec3{-2, 1, 3}), tolerance);
+  EXPECT_LT(norm(beside - Vec3{-5, 4, 6}), tolerance);
 }
 
 // ---- the three rules -------------------------------------------------------------------
