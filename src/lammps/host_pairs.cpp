@@ -62,7 +62,7 @@ void request_half_list(Neighbor &neighbor, Pair *pair, int instance, bool by_rad
 #endif
 }
 
-double step_of_level(const Update &update, int level)
+double step_of_level([[maybe_unused]] const Update &update, [[maybe_unused]] int level)
 {
 #if __has_include("respa.h")
   const auto *respa = reinterpret_cast<const Respa *>(update.integrate);
@@ -78,7 +78,6 @@ double step_of_level(const Update &update, int level)
   if (levels > 0 && levels < 100 && level < levels && step[levels - 1] == update.dt)
     return step[level];
 #endif
-  (void) level;
   throw InputError("this LAMMPS does not say which timestep a level of run_style respa has, as it "
                    "installs no respa.h: use run_style verlet, or a LAMMPS built from source");
 }

@@ -79,7 +79,6 @@ class EngineOn<NodesAlone<Base>> {
     std::vector<TurningMesh> turned;
     void grow(int) {}
     void turn(int, std::uint32_t, const TurningMesh &turning) { turned.push_back(turning); }
-    const StepContact *contacts(bool) { return nullptr; }
   };
   struct BroadPhase {
     void set_lists(B &, const GridView &, int) {}
@@ -100,6 +99,7 @@ class EngineOn<NodesAlone<Base>> {
   {
     run();
   }
+  const StepContact *step_contacts() const { return nullptr; }
 
   EngineSettings settings_;
   StepSettings step_;
