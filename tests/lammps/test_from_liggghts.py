@@ -135,7 +135,11 @@ WRITTEN = {
     "atom vectors of variables that LAMMPS has as outputs": (
         "variable f equal omegax[1]+omegax[2]*radius[1]\n",
         "compute         lsdcd_omegax all property/atom omegax\ncompute         lsdcd_radius all property/atom radius\n"
-        "variable f equal c_lsdcd_omegax[1]+c_lsdcd_omegax[2]*c_lsdcd_radius[1]\n"),
+        "variable f equal C_lsdcd_omegax[1]+C_lsdcd_omegax[2]*C_lsdcd_radius[1]\n"),
+    "values of one atom have a capital letter, those of all have none": (
+        "compute s all property/atom vx\ncompute m all com\nfix t all store/state 0 x y\nvariable f equal c_s[2]+c_m[2]+f_t[2][1]\n"
+        "variable g atom c_s*f_t[2]\n",
+        "variable f equal C_s[2]+c_m[2]+F_t[2][1]\nvariable g atom c_s*f_t[2]\n"),
     "set of one spin of a grain at rest": (
         "create_atoms 1 single 0 0 0\nset atom 1 diameter 0.2 omegay 3 vz -1\n",
         "set atom 1 diameter 0.2 density 1 vz -1 omega 0 3 0\n"),

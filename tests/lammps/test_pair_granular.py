@@ -193,7 +193,7 @@ def test_new_ids(folder, newton, ranks):
     fact("grains", len(kept[0]) == SIDE**3 - 22, str(len(kept[0])))
     at_most("new IDs", lmp.largest_difference(kept, end("yes")), 1e-10)
     at_most("new IDs, and a restart", lmp.largest_difference(kept, end("yes", "write_restart r\nclear\n" + settings(newton) + "read_restart r\n" + law)), 1e-10)
-    reset = "reset_atoms id\n" if lmp.ON_HOST else "reset_atom_ids\n"
+    reset = "reset_atoms id\n" if lmp.version() > 20210929 else "reset_atom_ids\n"
     restarted = end("no", "write_restart r\nclear\n" + settings(newton) + "read_restart r\n" + law + reset)
     at_most("new IDs after a restart", lmp.largest_difference(kept, restarted), 1e-10)
 

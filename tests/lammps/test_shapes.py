@@ -285,8 +285,7 @@ def test_body(folder):
     """An ellipsoid hits a free cube beside its middle, with friction: momentum and angular momentum of both stay."""
     stl.write(folder / "cube.stl", stl.box((-1,) * 3, (1,) * 3))
     mass = 2    # of the cube, with the inertia 1 about each axis
-    spin = "C_spin" if lmp.ON_HOST else "c_spin"    # values of one atom are those of a capital letter since 2025
-    shown = "x[1] y[1] z[1] vx[1] vy[1] vz[1] " + " ".join(f"{spin}[1][{k}]" for k in (1, 2, 3))
+    shown = "x[1] y[1] z[1] vx[1] vy[1] vz[1] " + " ".join(f"C_spin[1][{k}]" for k in (1, 2, 3))
     shown += "".join(f" f_wall[{k}]" for k in (15, 16, 17, 18, 19, 20, 25, 26, 27))    # centre, velocity, angular velocity
     lmp.run_well(head("-6 6 -6 6 -6 6", "ellipsoid") + f"""\
 create_atoms    1 single -0.4 0.3 1.6

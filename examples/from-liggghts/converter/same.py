@@ -357,10 +357,13 @@ class Same:
                     if name not in self.computed:
                         if line.skips or any(all(x.words[:1] != ["clear"] for x in self.lines[a:b]) for a, b in line.loops):
                             raise Left(f"{name}[...] of a variable in a loop, or where a jump may skip it",
-                                       f"compute property/atom {name} before it, and c_ID[...]")
+                                       f"compute property/atom {name} before it, and C_ID[...]")
                         self.put(f"compute         lsdcd_{name} all property/atom {name}")
                     self.computed.add(name)
-                    text = re.sub(rf"(?<![\w$}}]){name}\[", f"c_lsdcd_{name}[", text)
+                    text = re.sub(rf"(?<![\w$}}]){name}\[", f"C_lsdcd_{name}[", text)
+            # Values of one atom have a capital letter, on which LAMMPS of 2025 insists.
+            if line.words[2:3] == ["equal"]:
+                text = re.sub(r"\b([cf])(_\w+)(?=\[)", lambda m: m[1].upper() + m[2] if m[0] in self.per_atom else m[0], text)
             for name in re.findall(r"(?<![\w$}])([a-z]\w*)\[", text):
                 if name[:2] not in ("f_", "c_", "v_") and name not in ATOM_VECTORS:
                     raise Left(f"{name}[...] in a variable", "an atom-style variable, from what compute property/atom has")

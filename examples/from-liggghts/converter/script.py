@@ -63,6 +63,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
         self.regions, self.box, self.box_moves, self.faces, self.pair = {}, {}, False, ["f"] * 6, None
         self.mirrored, self.texts, self.parts, self.feeds, self.helpers = {}, set(), {}, {}, {}
         self.computed, self.spun = set(), False
+        self.per_atom = set()    # c_ID, f_ID of what has values of atoms
         self.rows = {}    # of computes of contacts: style, what stands for each column, its word
         self.named, self.named_flows = {}, {}    # outputs that lines have taken, of meshes and of other fixes
         self.densities = {}    # of set and insertions: of the groups or regions, the last one at the end; None: not known
@@ -260,6 +261,9 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
                 if line.words[0] == "compute":
                     self.rows.pop(line.words[1], None)
                 self.plain.discard(line.words[1])
+            if line.words[0] in ("fix", "compute") and len(line.words) > 3:
+                of_atoms = line.words[3].endswith("/atom") or line.words[3] == "store/state"
+                (self.per_atom.add if of_atoms else self.per_atom.discard)(f"{line.words[0][0]}_{line.words[1]}")
             try:
                 self.command(line)
             except (IndexError, KeyError, ValueError):
