@@ -37,8 +37,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
 
-  // For compute lsdcd/energy. Is energy booked, because there is such a compute? What pairs of this process have done with it.
-  bool books_energy() const { return books; }
+  // For compute lsdcd/energy: what pairs of this process have done with it.
   const lsdcd::BookedEnergy &booked() const;
 
  protected:

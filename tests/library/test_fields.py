@@ -13,7 +13,6 @@ import numpy as np
 
 import lsdcd
 from facts import fact
-from lsdcd import _c
 from wall_fields import ENCODED, FOLDER, LINES, law, rows, script, spec
 
 # Of a mesh that is read and welded by the wall.

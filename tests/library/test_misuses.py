@@ -24,7 +24,6 @@ NUMBER = [*NO_NUMBER, (NAN, "is nan"), (INF, "is inf"), (-INF, "is -inf")]
 LENGTH = [*NUMBER, (-1, "is -1: it is ")]
 ABOVE_0 = [*LENGTH, (0, "is 0: it is above 0")]
 PERIOD = [*NUMBER, (-1, "is -1: give a period above 0 and, to "), (0, "is 0: it is above 0")]
-DERIVABLE = NUMBER[1:]    # None is derived
 VECTOR = [(None, "is None, not three numbers"), ("0 0 1", "not real numbers"), ((0, 0), "has the shape (2,), not (3,)"),
           ([[0, 0, 1]], "has the shape (1, 3), not (3,)"), (5, "has the shape (1,), not (3,)"), (("a", 0, 0), "not real numbers"),
           ((None, 0, 0), "not real numbers"), ((0, 0, NAN), "[2]` is nan: give a finite number"),

@@ -10,7 +10,7 @@ import numpy as np
 import lsdcd
 from facts import fact
 from lsdcd import _c
-from wall_fields import BASES, EXACT, REFUSED, body, law, plate, rows, servo, spec, undecided
+from wall_fields import BASES, EXACT, REFUSED, body, plate, rows, servo, spec, undecided
 
 DT, N = 5e-4, 4
 

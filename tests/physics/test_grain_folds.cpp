@@ -176,7 +176,6 @@ TEST(grain_folds, have_the_forces_of_an_independent_program)
 // ---- no jumps ------------------------------------------------------------------------------
 
 enum class Place { fold, drum, cone, bumpy };
-enum class Form { any, rod, disc, flat_sides };
 
 // Sides of a drum along y about the origin, or about `begin`: of a side that begins there.
 TriangleSoup open_drum(int n, Real radius, Real length, Real begin = 0)
