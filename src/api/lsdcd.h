@@ -713,7 +713,7 @@ typedef struct lsdcd_wall_spec {
   /* Steps of each mean of force and torque in lsdcd_wall_totals, as a solver of a fluid samples them; 0: there are none */
   int average_every;
   int each_contact; /* 1: lsdcd_wall_get_contacts() will be called */
-  int energy;       /* 1: what contacts dissipate is booked, by cause; not with shapes and coats */
+  int energy;       /* 1: what contacts dissipate is booked, by cause; not with coats */
   /* The share of the heat of friction that goes into the spheres, 0 to 1, as `heat` of lsdcd_spheres; with `energy` and the
    * sub-model heat */
   double friction_heat;

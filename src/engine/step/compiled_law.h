@@ -69,12 +69,18 @@ struct WallEffects {
   bool records = false;    // EnergyRecord, of impacts and of what is dissipated
 };
 
+// Is it of grains that may be no spheres (shape_law.h)?
+template <class Law>
+struct IsShapeLaw : std::false_type {
+};
+
 // kEnergy: books what contacts do with energy, and keeps KeptForces of each. kRecords: puts an EnergyRecord where one is due.
 template <class Law, bool kPosed_, bool kKeepsContacts_, bool kNodes_ = false,
           bool kEnergy_ = false, bool kRecords_ = false>
 struct OnWall : Law {
   static constexpr bool kPosed = kPosed_, kKeepsContacts = kKeepsContacts_, kNodes = kNodes_,
                         kEnergy = kEnergy_, kRecords = kRecords_;
+  static constexpr bool kShapes = IsShapeLaw<Law>::value;
   // A setup stores what contacts keep; it does not move their springs.
   static constexpr bool kSetsUp = kEnergy || kRecords;
 };

@@ -32,11 +32,12 @@ struct RelativeMotion {
   }
 };
 
-// `before`: the wall's at the place, in the frame of the mesh, where the sphere was a step ago.
+// `from_foot`: to the sphere's centre, from where the contact is on the wall. `before`: the wall's at the place, in the frame of the
+// mesh, where the sphere was a step ago.
 template <class Springs>
 LSDCD_FN RelativeMotion relative_motion(const ForceSettings &settings,
                                         const SphereStateWith<Springs> &s, const Vec3 &n,
-                                        Real distance, bool before)
+                                        const Vec3 &from_foot, bool before)
 {
   RelativeMotion m = {};
   if (settings.pose.placed) {
@@ -48,8 +49,7 @@ LSDCD_FN RelativeMotion relative_motion(const ForceSettings &settings,
   }
   if (settings.surface_moves) {
     const SurfaceMotion &surface = settings.surface;
-    m.wall +=
-        surface.along(s.x - distance * n, n, settings.back) + cross(surface.angular, distance * n);
+    m.wall += surface.along(s.x - from_foot, n, settings.back) + cross(surface.angular, from_foot);
     m.spin += surface.angular;
   }
   m.v = s.v - m.wall;
@@ -197,7 +197,7 @@ struct EnergyBook {
     if (!settings.update) return;
 
     if (!goes_on) begin(law, s, b);
-    RelativeMotion m = relative_motion(settings, s, n, b.distance, false);
+    RelativeMotion m = relative_motion(settings, s, n, b.distance * n, false);
     if constexpr (Law::kNodes)
       if (settings.nodes.velocity) add_nodes(settings.nodes, b.nodes, n, now, c.dt, m);
     add_half(m, n, now, c.dt);
@@ -223,7 +223,7 @@ struct EnergyBook {
       if constexpr (Law::kRecords) lost_before = dissipated(rows);
       const FeatureCode feature = s.springs[k].feature;
       Vec3 n = s.springs[k].normal;
-      RelativeMotion m = relative_motion(settings, s, n, old.distance, true);
+      RelativeMotion m = relative_motion(settings, s, n, old.distance * n, true);
       if (settings.pose.placed) m = m.before(settings.wall_angular, dt);
       Vec3 turn = m.omega;    // less that of nodes, as the law sees it
       if constexpr (Law::kNodes)
@@ -249,7 +249,8 @@ struct EnergyBook {
     }
   }
 
- private:
+  // The rest is for add() and close(), and for those of grains that are no spheres (grain_energy.h).
+
   template <class Springs>
   LSDCD_FN static KeptForces kept(const Law &law, const SphereStateWith<Springs> &s, int k)
   {

@@ -139,6 +139,12 @@ struct OneMeshSphere {
   LSDCD_FN int contacts_end(std::size_t, int n) const { return n; }
 };
 
+// Does that of close_books() for a grain of a law with kShapes (grain_energy.h).
+template <class Law, class Springs>
+void close_grain(const Law &law, const StepJob &job, const LawAtMesh<Law> &mesh, std::size_t i,
+                 const SphereStateWith<Springs> &s, const EnergyMarks &marks,
+                 EnergyBook<Law> &book);
+
 // Books at each mesh of a sphere what has become of its contacts of the last step, once those of this step are booked.
 template <class Law, class Sphere>
 LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const EnergyMarks &marks)
@@ -151,7 +157,10 @@ LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const Energy
     add_motion(mesh.law, job, mesh.settings.pose, sphere.i, state);
     if (!job.is_booked[k]) job.energy[k] = EnergyRows();
     EnergyBook<Law> book = {job.energy[k]};
-    book.close(mesh.law, mesh.grid.wall, mesh.settings, state, marks, job.records);
+    if constexpr (Law::kShapes)
+      close_grain(mesh.law, job, mesh, sphere.i, state, marks, book);
+    else
+      book.close(mesh.law, mesh.grid.wall, mesh.settings, state, marks, job.records);
     if constexpr (Law::kHeat)
       if (mesh.law.has_heat() && mesh.settings.update)
         job.heat_flow[sphere.i] +=

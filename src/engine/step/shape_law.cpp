@@ -37,14 +37,53 @@ CompiledLaw<CpuBackend> compiled(const Base &base, ShapeWork &work)
   const auto evaluate = [](const LawBytes &of, const Contact &c, ContactMemory<0> &memory) {
     return static_cast<ContactForce>(of.as<Base>().evaluate(c, memory));
   };
-  const Law law = {{&work.laws.back(), evaluate, reads_radius(base), &work}};
+  const Law law = {{&work.laws.back(), evaluate, reads_radius(base), &work, nullptr, nullptr}};
   return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
+}
+
+// Returns a law for shapes with books of energy, by one of spheres that says what its force is made of. What that keeps beside its spring is
+// of effects that are off.
+template <class Base>
+CompiledLaw<CpuBackend> booked(const Base &base, bool reads, ShapeWork &work)
+{
+  static_assert(!Base::kBeyondContact, "such laws are not for shapes");
+  using Law = OnWall<ShapeLaw<true, true>, true, true, false, true>;
+  using Memory = ContactMemory<Base::kExtra>;
+  work.laws.emplace_back(base);
+  const auto evaluate = [](const LawBytes &of, const Contact &c, ContactMemory<0> &sliding) {
+    Memory memory = {sliding.shear, {}};
+    const ContactForce force = of.as<Base>().evaluate(c, memory);
+    sliding.shear = memory.shear;
+    return force;
+  };
+  const auto parts = [](const LawBytes &of, const Contact &c, const Vec3 &begun, const Vec3 &shear,
+                        const FullForce &force) {
+    return of.as<Base>().parts(c, Memory{begun, {}}, Memory{shear, {}}, force);
+  };
+  const auto energy = [](const LawBytes &of, const Contact &c, Real overlap) {
+    return of.as<Base>().normal_energy(c, overlap);
+  };
+  const Law law = {{&work.laws.back(), evaluate, reads, &work, parts, energy}};
+  return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
+}
+
+CompiledLaw<CpuBackend> booked_law(const ContactLaw &p, ShapeWork &work)
+{
+  if (p.is_classic())
+    return with_classic_law(p, [&](const auto &law) {
+      using Base = std::decay_t<decltype(law)>;
+      return booked(AddedModel<Base, true>{law, family_of<AnyRolling>(p.rolling), {0}, p.k_tangent},
+                    reads_radius(law), work);
+    });
+  const auto law = granular_model<true, true, true>(p, TouchingNormal{p.normal, p.k_normal, 0});
+  return booked(law, law.uses_contact_radius || law.elastic.uses_contact_radius(), work);
 }
 
 CompiledLaw<CpuBackend> compiled_law(const ContactLaw &p, ShapeWork &work)
 {
   const std::string why = why_not_for_shapes(p);
   if (!why.empty()) throw InputError(why);
+  if (p.keeps_forces) return booked_law(p, work);
   if (p.is_classic())
     return with_classic_law(p, [&](const auto &law) { return compiled(law, work); });
   const TouchingNormal normal = {p.normal, p.k_normal, 0};

@@ -9,12 +9,13 @@
 #include "engine/grains.h"
 #include "engine/results/step_counts.h"
 #include "engine/step/compiled_law.h"
-#include "law/contact.h"
+#include "law/contact_model.h"
 #include "shape/shapes_made.h"
 #include "tree/triangle_tree.h"
 
 #include <cstdint>
 #include <deque>
+#include <type_traits>
 #include <vector>
 
 namespace lsdcd {
@@ -49,27 +50,47 @@ struct ShapeWork {
 
 // A law of spheres, called through a pointer, with the arm of a grain beside the spring of each contact. So steps of shapes are
 // compiled twice, with springs and without, and not for each law.
-template <bool kHistory_>
+// kBooks: for books of energy.
+template <bool kHistory_, bool kBooks = false>
 struct ShapeLaw {
+  using Force = std::conditional_t<kBooks, FullForce, ContactForce>;
   static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory ? 1 : 0, kScalars = 0, kExtra = 3 * kVectors;
-  static constexpr bool kBeyondContact = false, kContactTorque = false, kHeat = false;
+  static constexpr bool kBeyondContact = false, kContactTorque = kBooks, kHeat = false;
   static constexpr bool kMidpoint = false;
 
   const LawBytes *base;    // one of work->laws
   ContactForce (*evaluate_base)(const LawBytes &base, const Contact &, ContactMemory<0> &);
   bool reads_radius;    // does it read Contact::radius?
   ShapeWork *work;
+  // Of a law with kBooks: parts() with the spring before and after, and normal_energy().
+  ForceParts (*parts_of_base)(const LawBytes &base, const Contact &, const Vec3 &begun,
+                              const Vec3 &shear, const FullForce &);
+  Real (*energy_of_base)(const LawBytes &base, const Contact &, Real overlap);
 
   bool stores(int) const { return true; }
   template <class Memory>
-  ContactForce evaluate(const Contact &c, Memory &memory) const
+  Force evaluate(const Contact &c, Memory &memory) const
   {
     ContactMemory<0> sliding = {memory.shear};
-    const ContactForce force = evaluate_base(*base, c, sliding);
+    Force force = {};
+    static_cast<ContactForce &>(force) = evaluate_base(*base, c, sliding);
     memory.shear = sliding.shear;
     return force;
   }
+  template <class Memory>
+  ForceParts parts(const Contact &c, const Memory &begun, const Memory &memory,
+                   const FullForce &force) const
+  {
+    return parts_of_base(*base, c, begun.shear, memory.shear, force);
+  }
+  Real normal_energy(const Contact &c, Real overlap) const
+  {
+    return energy_of_base(*base, c, overlap);
+  }
+};
+template <bool kHistory, bool kBooks>
+struct IsShapeLaw<ShapeLaw<kHistory, kBooks>> : std::true_type {
 };
 
 // Returns the law of the settings for grains of any shape: InputError where they cannot have it.

@@ -9,6 +9,7 @@
 #include "contact/grain_rule.h"
 #include "contact/shape_passes.h"
 #include "contact/shape_search.h"
+#include "engine/step/grain_energy.h"
 #include "engine/step/multi_mesh_step.h"
 #include "engine/step/shape_law.h"
 #include "engine/step/step_cpu.h"
@@ -18,17 +19,24 @@
 
 namespace lsdcd {
 
+// Returns which contact of the last step contact i goes on with.
+template <class Law, class Springs>
+Transfer transfer_of(const Law &law, const GrainContactsView &set, int i,
+                     const SphereStateWith<Springs> &s)
+{
+  const OldGrainContacts<Springs> old = {s.springs, s.extra, n_stored(law), s.n_springs,
+                                         *set.at[i].metric};
+  return transfer_of(set, i, old);
+}
+
 // Returns the memory of contact i at the start of the step: that of the last step, turned with the normal, and about it
 // with a surface that turns.
 template <class Law, class Springs>
-auto memory_from_last_step(const Law &law, const ForceSettings &settings,
-                           const GrainContactsView &set, int i, const SphereStateWith<Springs> &s)
+auto memory_from_last_step(const Law &, const ForceSettings &settings, const GrainContactsView &set,
+                           int i, const SphereStateWith<Springs> &s, const Transfer &in)
 {
   ContactMemory<Law::kExtra> memory = {};
   if constexpr (Law::kHistory) {
-    const OldGrainContacts<Springs> old = {s.springs, s.extra, n_extra(law), s.n_springs,
-                                           *set.at[i].metric};
-    const Transfer in = transfer_of(set, i, old);
     if (in.from >= 0) {
       const Vec3 &n = set.at[i].normal;
       memory.shear = handed_on(s.springs[in.from].shear, in, s.springs, n);
@@ -60,10 +68,10 @@ Real radius_for(const Law &law, const Superellipsoid &shape, const Vec3 &own_poi
 
 // Evaluates the law for each contact of a grain that is no sphere, as add_contacts() does for spheres: with the velocity of
 // the grain's point less that of the wall at the foot, and the force at the grain's point.
-template <class Law, class Springs>
-void add_contacts(const GridView &, const Law &law, const ForceSettings &settings,
+template <class Law, class Springs, class Sink>
+void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
                   const SphereStateWith<Springs> &s, const GrainContactsView &set,
-                  const Real *weights, const SphereSink &sink, SphereResult &out)
+                  const Real *weights, const Sink &sink, SphereResult &out)
 {
   const Superellipsoid &shape = *set.shape;
   for (int i = 0; i < set.n; i++) {
@@ -97,13 +105,24 @@ void add_contacts(const GridView &, const Law &law, const ForceSettings &setting
     }
     c.dt = settings.dt;
     c.update = settings.update;
+    if constexpr (Law::kEnergy) c.omega = {0, 0, 0};    // nothing rolls or twists
 
-    auto memory = memory_from_last_step(law, settings, set, i, s);
-    const ContactForce f = law.evaluate(c, memory);
+    Transfer in = {-1, 0};
+    if constexpr (Law::kHistory) in = transfer_of(law, set, i, s);
+    auto memory = memory_from_last_step(law, settings, set, i, s, in);
+    [[maybe_unused]] const auto begun = memory;
+    const auto f = law.evaluate(c, memory);
+    if constexpr (Law::kEnergy) {
+      if (!settings.update) memory = begun;
+      const BookedContact<Law> booked = {
+          c, f, law.parts(c, begun, memory, f), weight, c.radius, at.overlap, at.feature, {}};
+      add_grain(*sink.book, law, grid.wall, settings, s, booked, at, in, *sink.marks,
+                sink.extra + out.n_contacts * n_stored(law));
+    }
     if constexpr (Law::kHistory) {
       const int to = out.n_contacts;
       sink.springs[to] = {memory.shear, n, at.feature, settings.mesh};
-      store_extra(law, memory, sink.extra + to * n_extra(law));
+      store_extra(law, memory, sink.extra + to * n_stored(law));
     }
     const Vec3 tangential = weight * f.tangential;
     const Real normal = weight * f.normal, pressing = normal > 0 ? normal : Real(0);
@@ -191,13 +210,7 @@ class ShapeAtMeshes {
     const ForceSettings &of = settings(m);
     tolerance_ = std::fmax(tolerance_, sphere_.mesh(sphere_.begin() + m).grid.tolerance);
     GrainMetric &metric = memory_.metric[m];
-    Vec3 row[3];
-    rows_of(row_.turn, row);
-    for (int k = 0; k < 3; k++) {
-      const Vec3 axis = of.pose.turn_to_mesh({row[0][k], row[1][k], row[2][k]});
-      for (int j = 0; j < 3; j++) metric.row[j][k] = axis[j];
-      metric.scale[k] = std::sqrt(1 / row_.inertia_over_mass[k]);
-    }
+    metric = metric_of(row_, of.pose);
     PlacedGrain &grain = memory_.placed[m];
     grain = {shape_, of.pose.to_mesh(centre_), {metric.row[0], metric.row[1], metric.row[2]}};
     if (memory_.of_mesh.size() <= of.mesh) memory_.of_mesh.resize(of.mesh + 1);
