@@ -5,6 +5,7 @@
 
 import math
 import pathlib
+import re
 
 import lmp
 import stl
@@ -38,13 +39,14 @@ LAWS = ("hooke 1e4 NULL 30 NULL 0 0", "hooke/history 1e4 1e4 30 NULL 0.5 1", "gr
 
 
 def test_bounce(folder):
-    """A sphere that falls at speed v is one impact of m v^2/2, of any law, with books of energy and without; slower than the least
-    speed it is none. It moves freely before, so that v is exact."""
+    """A sphere that falls at speed v, also aslant, is one impact of m v^2/2 with the speed along the normal, of any law, with books of energy
+    and without, wherever within a step it begins; slower than the least speed it is none. It moves freely before, so that v is exact."""
     for law in LAWS:
         for words in ("impacts 0.01", "impacts 0.01 energy"):
-            b = hits(folder, law, 1e-3, "run 300", words)
-            fact(f"{law} {words}: one impact", b["impacts"] == 1, b)
-            at_most(f"{law} {words}: energy", abs(b["energy"] - 0.5), 1e-12)
+            for z in ("0.51", "0.5103", "0.5107"):
+                b = hits(folder, law, 1e-3, "run 300", words, x=f"0.3 0.2 {z}", v="0.7 -0.3 -1")
+                fact(f"{law} {words}: one impact", b["impacts"] == 1, b)
+                at_most(f"{law} {words}: energy", abs(b["energy"] - 0.5), 1e-12)
         fact(f"{law}: not faster than the least speed", hits(folder, law, 1e-3, "run 300", "impacts 1.0001")["impacts"] == 0)
 
 
@@ -55,6 +57,24 @@ def test_no_impact(folder):
             for move in (HELD.format(v="0.9 0.4 0"), HELD.format(v="0 0 -0.02")):
                 b = hits(folder, law, 1e-3, "run 1000\nrun 1000", "impacts 1e-6", mesh, x=DOWN.replace("0.3 0.2", "-1.9 -1.1"), move=move)
                 fact(f"{law}, {mesh}, {move}: none", b["impacts"] == 0, b)
+
+
+def test_put_there(folder):
+    """A sphere that something moves into overlap, deeper than it comes in a step, is none."""
+    jump = "variable dz equal -0.03*(step>50)\nvariable vz equal -0.5\nfix move all move variable NULL NULL v_dz NULL NULL v_vz"
+    for law in LAWS[:2]:
+        b = hits(folder, law, 1e-3, "run 100", "impacts 1e-6", x="0.3 0.2 0.52", v="0 0 -0.5", move=jump)
+        fact(f"{law}: none", b["impacts"] == 0, b)
+        b = hits(folder, law, 1e-2, "run 100", "impacts 1e-6", x="0.3 0.2 0.5299", v="0 0 -0.5", move=jump)
+        fact(f"{law}: as deep as it would come by itself, it is one", b["impacts"] == 1, b)
+
+
+def test_body(folder):
+    """A plate of mass 3 that is a body has the impact of the reduced mass, 3/4."""
+    plate = "body mass 3 com 0 0 0 inertia 1 1 1 0 0 0 joint slider 0 0 1"
+    b = hits(folder, LAWS[0], 1e-3, "run 300", f"{plate} impacts 0.01")
+    fact("one impact", b["impacts"] == 1, b)
+    at_most("energy", abs(b["energy"] - 0.375), 1e-12)
 
 
 FILES = "mesh_fields f_*.vtp every 100 impact_spectrum s_*.csv every 100"
@@ -98,6 +118,53 @@ def test_place(folder):
         at_most(f"{mesh}: bins are of equal ratio", abs(rows[0][1] / rows[0][0] - 10 ** 0.1), 1e-12)
         at_most(f"{mesh}: its energy in the bin", abs(rows[0][3] - 0.5), 1e-12)
     fact("of both the same", all(abs(both["floor.stl"][k] - both["cut.stl"][k]) <= 1e-12 for k in both["floor.stl"]), both)
+
+
+def test_twice(folder):
+    """A face that is hit again, more slowly, has the speed of the first time, and all of the energy."""
+    b = hits(folder, LAWS[1], 1e-3, "run 400", f"impacts 0.01 {FILES}", move="fix move all nve/sphere\nfix g all gravity 10 vector 0 0 -1")
+    found = fields(folder, 400)
+    fact("several impacts on one face", b["impacts"] >= 2 and max(found["impacts"]) == b["impacts"], b)
+    at_most("the speed is that of a fall from 0.01 at 1", abs(max(found["impact_speed"]) - math.sqrt(1.2)), 0.01)
+    at_most("energies add up", abs(b["energy"] - max(found["impact_energy"])), 1e-12)
+    fact("to more than the first one", 0.65 < b["energy"] < 0.6 * b["impacts"], b)
+
+
+def test_two_meshes(folder):
+    """A ceiling that nothing touches has nothing of what hits the floor, and each mesh has a spectrum of its own."""
+    stl.write(folder / "lid.stl", stl.quad((-2, -2, 3), (2, -2, 3), (2, 2, 3), (-2, 2, 3)))
+    lid = FILES.replace("f_*", "lid_*").replace("s_*", "lid_*")
+    hits(folder, LAWS[1], 1e-3, "run 300", f"{FILES} mesh lid.stl {lid} impacts 0.01 energy")
+    at_most("the floor's impact", abs(sums(fields(folder, 300))["impact_energy"] - 0.5), 1e-12)
+    fact("its spectrum", sum(row[2] for row in spectrum(folder, 300)) == 1)
+    fact("the lid has none", set(sums(vtp.read(folder / "lid_300.vtp")).values()) == {0})
+    fact("in its spectrum, too", len((folder / "lid_300.csv").read_text().split("\n")) == 2)
+
+
+def test_image(folder):
+    """A sphere on one side of a periodic face that hits the edge of a plate beyond it: the plate has the impact."""
+    stl.write(folder / "plate.stl", stl.quad((-2.95, -1, 0), (-2, -1, 0), (-2, 1, 0), (-2.95, 1, 0)))
+    script = SPHERE.replace("mesh floor.stl energy", f"mesh plate.stl impacts 0.01 energy {FILES}")
+    script = re.sub("boundary .*", "boundary p p f", script)
+    row = lmp.read_thermo(lmp.run_well(script.format(law=LAWS[0], dt="1e-3", columns=" ".join((COUNT, ENERGY, *COLUMNS)), run="run 300", x="2.95 0.2 0.51",
+                                                     v="0 0 -1", move="fix move all nve/sphere"), folder))[-1]
+    found, of = fields(folder, 300), dict(zip(("impacts", "energy", *NAMES), row[3:]))
+    fact("one impact", of["impacts"] == 1 and 0.4 < of["energy"] < 0.5, of)
+    total = sums(found)
+    at_most("it is the plate's", abs(total["impacts"] - 1) + abs(total["impact_energy"] - of["energy"]), 1e-12)
+    at_most("and what the bounce dissipates", abs(total["dissipated_energy"] - of["damping"]) / of["damping"], 1e-12)
+
+
+def test_edge(folder):
+    """Both faces that meet at an edge have half of an impact there, and its whole speed."""
+    stl.write(folder / "ridge.stl", stl.quad((-2, -2, -1), (0.3, -2, 0), (0.3, 2, 0), (-2, 2, -1)) + stl.quad((0.3, -2, 0), (2.6, -2, -1), (2.6, 2, -1), (0.3, 2, 0)))
+    b = hits(folder, LAWS[1], 1e-3, "run 300", f"impacts 0.01 energy {FILES}", "ridge.stl", (COUNT, ENERGY, *COLUMNS))
+    found = fields(folder, 300)
+    fact("one impact", b["impacts"] == 1, b)
+    at_most("sums", abs(sums(found)["impact_energy"] - 0.5) + abs(sums(found)["impacts"] - 1), 1e-12)
+    hit = [k for k, n in enumerate(found["impacts"]) if n]
+    fact("two faces have half of it each", [found["impacts"][k] for k in hit] == [0.5, 0.5], hit)
+    at_most("the speed", max(abs(found["impact_speed"][k] - 1) for k in hit), 1e-12)
 
 
 def test_seam(folder):
