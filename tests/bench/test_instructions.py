@@ -35,6 +35,7 @@ if not shutil.which("valgrind"):
     kept_numbers.skip("no valgrind")
 found = {f"{style}, near list {which}": count(os.environ["LSDCD_COUNT_STEPS"], style, which)
          for style in ("hooke", "hertz/history") for which in ("kept", "anew")}
+found["hertz/history with energy, near list kept"] = count(os.environ["LSDCD_COUNT_STEPS"], "energy", "kept")
 for i, kind in enumerate(("sphere", "ellipsoid 2:1:1", "n = 4", "n = 8")):
     for k, place in enumerate(("at faces", "at edges", "in folds")):
         found[f"{kind}, {place}"] = count(os.environ["LSDCD_COUNT_SHAPES"], str(i), str(k))

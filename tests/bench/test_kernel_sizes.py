@@ -31,7 +31,8 @@ REGISTERS = 0x042f
 # Words in a name, of cases of their own: the wall moves and has records, and its nodes move, or it books energy, by triangle, too, or
 # has impacts.
 KINDS = {"ELb1ELb1ELb1ELb0ELb0EEE": " at nodes that move", "ELb1ELb1ELb0ELb1ELb0EEE": " with books of energy",
-         "ELb1ELb1ELb0ELb1ELb1EEE": " with energy of triangles", "ELb1ELb1ELb0ELb0ELb1EEE": " with impacts"}
+         "ELb1ELb1ELb0ELb1ELb1EEE": " with energy of triangles",
+         "ELb1ELb1ELb1ELb1ELb0EEE": " with books of energy at nodes that move", "ELb1ELb1ELb0ELb0ELb1EEE": " with impacts"}
 MOST_STACK = 1024    # bytes a thread; a driver sets more aside for every thread that a GPU can hold
 
 
