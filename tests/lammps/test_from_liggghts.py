@@ -941,9 +941,12 @@ def test_rolling_and_cohesion(folder):
     said, out = convert(folder, EXTRA.format(500, "hertz", "cohesion sjkr2"))
     fact("sjkr2 is left", "cohesion sjkr2; do: sjkr" in said.stderr, said.stderr)
     for tail, expected in (("no_history rolling_friction cdt", "linear_nohistory_liggghts 0.907485213 0.4 rolling cdt"),
-                           ("history rolling_friction cdt tangential_damping off limitForce on", "mindlin_liggghts NULL 0 0.4 limit_damping rolling cdt")):
+                           ("history rolling_friction cdt tangential_damping off limitForce on", "mindlin_liggghts NULL 0 0.4 limit_damping rolling cdt"),
+                           ("off rolling_friction epsd2", "tangential mindlin_liggghts NULL 0 0 rolling epsd2 0.1")):
         _, out = convert(folder, EXTRA.format(0, "hertz", "").replace("history \n", f"{tail}\n"))
         fact(f"tangential {tail}", expected in out, out)
+    said, _ = convert(folder, EXTRA.format(0, "hertz", "").replace("history \n", "no_history rolling_friction epsd2\n"))
+    fact("epsd2 without its stiffness is left", "epsd2, whose stiffness is that of tangential history, with no_history" in said.stderr, said.stderr)
     two = (TWO_TYPES + "fix r all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.2 0.2 0.3\ncreate_atoms 1 single 0 0 0\ncreate_atoms 2 single 1 0 0\n"
            "pair_style gran model hertz tangential history rolling_friction epsd2\npair_coeff * *\n")
     _, out = convert(folder, two)

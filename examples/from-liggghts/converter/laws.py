@@ -198,6 +198,10 @@ class Model:
         tangential = f"mindlin_slip NULL {short(share)}" if self.tangential == "history" else f"linear_nohistory {short(share)}"
         if self.extra and self.tangential:
             tangential = f"mindlin_liggghts NULL {'NULL' if share else '0'}" if self.tangential == "history" else f"linear_nohistory_liggghts {short(share)}"
+        if self.rolling == "epsd2" and self.tangential != "history":
+            if self.tangential:
+                raise Left("rolling_friction epsd2, whose stiffness is that of tangential history, with no_history", "tangential history, or epsd")
+            tangential = "mindlin_liggghts NULL 0"    # without friction, as mu is 0
         return (f"granular hertz/material {short(e)} {short(c.get('coefficientRestitution', c.i, c.j))} {short(nu)} "
                 f"damping coeff_restitution tangential {tangential} {short(mu)}" + " limit_damping" * self.limit + self.extras(c))
 
