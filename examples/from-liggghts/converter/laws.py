@@ -195,9 +195,10 @@ class Model:
             return f"{style} {numbers}" + " limit_damping" * self.limit + self.extras(c)
         _, _, _, share, mu = self.hertz(c)
         e, nu = c.one_material()
-        tangential = f"mindlin_slip NULL {short(share)}" if self.tangential == "history" else f"linear_nohistory {short(share)}"
-        if self.extra and self.tangential:
-            tangential = f"mindlin_liggghts NULL {'NULL' if share else '0'}" if self.tangential == "history" else f"linear_nohistory_liggghts {short(share)}"
+        if self.tangential == "history":
+            tangential = f"mindlin_liggghts NULL {'NULL' if share else '0'}"
+        else:
+            tangential = f"linear_nohistory_liggghts {short(share)}" if self.tangential else "linear_nohistory 0"
         if self.rolling == "epsd2" and self.tangential != "history":
             if self.tangential:
                 raise Left("rolling_friction epsd2, whose stiffness is that of tangential history, with no_history", "tangential history, or epsd")
@@ -206,7 +207,7 @@ class Model:
                 f"damping coeff_restitution tangential {tangential} {short(mu)}" + " limit_damping" * self.limit + self.extras(c))
 
     def granular(self, c):
-        """The words of pair_coeff and of LAMMPS's own wall, which has other moduli in 29Sep2021."""
+        """The words of LAMMPS's own wall, which has other moduli in 29Sep2021."""
         k, kt, damping, share, mu = self.hertz(c)
         e = tsuji(damping)
         if e is None:

@@ -137,22 +137,14 @@ class Properties:
         model.check()
         contacts = [Contact(self, line, i, j) for i in kinds for j in kinds]
         model.drop_zeros(contacts)
-        self.note_friction(line, model, contacts)
+        self.note_friction(line, model, contacts, model.normal == "hertz")
         self.pair = None
         pairs = [("*", "*", kinds[0], kinds[0])] + [(a, b, a, b) for a in kinds for b in kinds if a <= b and b != kinds[0]]
-        if model.extra:
+        if model.extra or model.normal == "hertz":    # LAMMPS's granular slips at other arms, and stops at mu F with the dashpot
             r, m = self.size(line) if model.normal == "hooke" else (1.0, 1.0)
             laws = [(i, j, model.law(Contact(self, line, a, b), r / 2, m / 2)) for i, j, a, b in pairs]
             self.put("pair_style      granular/lsdcd")
             self.pair = [f"pair_coeff      {i} {j} law {law}" for i, j, law in laws]
-            return
-        if model.normal == "hertz":
-            self.put("pair_style      granular")
-            self.note(line, "damping tsuji has another number than the restitution, so that LAMMPS's pairs return the "
-                      "restitution of LIGGGHTS; in 29Sep2021 they have no coeff_restitution")
-            # Types of walls alone have no grains: any law does.
-            self.pair = [f"pair_coeff      {i} {j} {model.granular(Contact(self, line, a, b))}"
-                         for i, j, a, b in pairs]
             return
         r, m = self.size(line) if model.normal == "hooke" else (1.0, 1.0)
         laws = {model.classic(Contact(self, line, i, j), r / 2, m / 2) for i in kinds for j in kinds}
@@ -162,9 +154,9 @@ class Properties:
         self.put(f"pair_style      gran/{style} {numbers}" + " limit_damping" * model.limit)
         self.pair = ["pair_coeff      * *"]
 
-    def note_friction(self, line, model, contacts=()):
-        dashpot = model.tangential == "history" and model.damped and "stiffness" not in (model.normal or "") and not (
-            model.extra and model.normal == "hertz")    # mindlin_liggghts has it
+    def note_friction(self, line, model, contacts, exact):
+        """`exact`: the friction of LSDCD for LIGGGHTS stands here."""
+        dashpot = model.tangential == "history" and model.damped and "stiffness" not in (model.normal or "") and not exact
         if dashpot and not self.noted_dashpot and any(c.friction() > 0 and c.beta() > 0 for c in contacts):
             self.noted_dashpot = True
             self.note(line, "until the spring has reached mu F, LIGGGHTS adds the dashpot to it, here the sum ends at mu F: doc/from-liggghts.md, "

@@ -77,7 +77,7 @@ class Walls:
         model.check()
         contacts = [Contact(self, line, mesh.type, i) for mesh in meshes for i in self.grains()]
         model.drop_zeros(contacts)
-        self.note_friction(line, model, contacts)
+        self.note_friction(line, model, contacts, model.normal == "hertz")
         self.note_stored(line, wall)
         self.check_bodies(line, model, meshes)
         # One fix, so that a grain where meshes meet is pushed once; each mesh has its law.
@@ -199,7 +199,7 @@ class Walls:
             laws = set(self.law_of(line, model, kind).values())
         if model.extra and not model.nearest:
             raise model.left_plane(contacts[0])
-        self.note_friction(line, model)
+        self.note_friction(line, model, contacts, False)
         if len(laws) > 1:
             raise Left("a plane that touches grains of several materials", "a fix for the group of each type")
         if shape in ("xplane", "yplane", "zplane"):
