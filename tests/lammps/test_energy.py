@@ -463,6 +463,29 @@ def test_wear_that_moves_the_mesh(folder):
             nothing_but(b, b["wear"], "damping", "inserted")
 
 
+def test_nodes_and_wear_on_processes(folder):
+    """On 4 processes, and after a restart in the middle of a contact, all rows are the same."""
+    stl.write(folder / "square.stl", stl.quad((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)))
+    stl.write(folder / "cut.stl", stl.sheet(12, lambda i, j: (-3 + 6 * i / 12, -3 + 6 * j / 12, 0)))
+    law = "granular hooke 1e3 5 damping mass_velocity tangential linear_history 300 1 0.3 rolling sds 5 0.01 0.05 twisting sds 1 0.001 0.01"
+    nodes = NODES.format(z="-0.21", dt="1e-3", law=law, columns=" ".join(COLUMNS), run="{run}"), 30
+    wear = SPHERE.replace("floor.stl energy", "cut.stl wear archard 1e-3 50 deform every 10 energy").replace("{columns}", "{columns} f_wall[75]").format(
+        x=f"-0.8 0.2 {REST}", v="1 0.3 0", move=PULL, law=f"hooke/history {KN} 3e3 20 10 0.3 1", dt="1e-3", columns=" ".join(COLUMNS), run="{run}"), 205
+    for script, half in (nodes, wear):
+        def last(text, ranks=1):
+            return lmp.read_thermo(lmp.run_well(text, folder, ranks))[-1][1:]
+        whole = last(script.replace("{run}", f"run {half}\nrun {half}"))
+        four = last(script.replace("{run}", f"run {half}\nrun {half}"), 4)
+        last(script.replace("{run}", f"run {half}\nwrite_restart half.restart"))
+        lines = script.splitlines(keepends=True)
+        first = next(k for k, line in enumerate(lines) if line.startswith("pair_style"))
+        again = "atom_modify map array\nread_restart half.restart\ncomm_modify vel yes\n" + "".join(lines[first:])
+        fact("it works", whole[-1] != 0 and max(map(abs, whole)) > 0.1, whole)
+        for name, row in (("4 processes", four), ("restarted on 1", last(again.replace("{run}", f"run {half}"))),
+                          ("restarted on 4", last(again.replace("{run}", f"run {half}"), 4))):
+            at_most(name, max(abs(a - b) for a, b in zip(row, whole)), 1e-11)
+
+
 # ---- ellipsoids --------------------------------------------------------------------------
 
 GRAIN = lmp.head("-3 3 -3 3 -1 5", style="ellipsoid") + """\
