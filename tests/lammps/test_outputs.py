@@ -210,26 +210,15 @@ def test_side(folder):
                  close(thermo[0][4], -force), str(thermo[0][4]))
 
 
-def test_pictures(folder):
-    """dump image takes the diameter of lines, or 1 for filled triangles, from the same word."""
-    for what, flags in (("edges", "0.05 0"), ("faces 2", "1 0"), ("contours", "0.05 0"),
-                        ("faces cut 1 0 0 0", "1 0")):
-        pictures = []
-        for wall in ("", f"fix wall type {flags}"):
-            go(folder, more="contacts draw " + what,
-               extra=f"dump pic all image 1 wall.*.ppm type type {wall} view 60 30 size 200 200\n")
-            pictures.append((folder / "wall.0.ppm").read_bytes())
-        fact(f"dump image shows the mesh: draw {what}", pictures[0] != pictures[1])
-
-
 def pixels(folder, draw, flags, mesh):
-    """(column, row from below) of what a picture from above shows of a mesh alone: of no atom, box or axis."""
+    """{(column, row from below): red, green, blue} of what a picture from above shows of a mesh alone: of no atom, box or axis. `flags`: the diameter of
+    lines, or 1 for filled triangles, and 0."""
     go(folder, more=f"contacts {draw}", mesh=mesh, extra="group none empty\n" +
        f"dump pic none image 1 wall.*.ppm type type fix wall type {flags} view 0 0 up 0 1 0 size 200 200 zoom 4 box no 0 axes no 0 0\n")
     head, rgb = (folder / "wall.0.ppm").read_bytes().split(b"\n255\n", 1)
     words = [w for line in head.split(b"\n") if not line.startswith(b"#") for w in line.split()]    # a LAMMPS of 2026 signs it
     assert (words, len(rgb)) == ([b"P6", b"200", b"200"], 3 * 200 * 200)
-    return {(k % 200, 199 - k // 200) for k in range(200 * 200) if max(rgb[3 * k:3 * k + 3]) > 0}
+    return {(k % 200, 199 - k // 200): tuple(rgb[3 * k:3 * k + 3]) for k in range(200 * 200) if max(rgb[3 * k:3 * k + 3]) > 0}
 
 
 def spans(some):
@@ -245,18 +234,25 @@ def test_what_pictures_show(folder):
     width, height = right - left + 1, high - low + 1
     # LAMMPS leaves out pixels between triangles.
     fact("a square is a square, filled", abs(width - height) <= 1 and width > 30 and len(whole) >= 0.9 * width * height, f"{spans(whole)} {len(whole)}")
+    fact("in the colour of type 2, which is green", all(green > max(red, blue) for red, green, blue in whole.values()), str(set(whole.values())))
     small = pixels(folder, "draw faces 2", "1 0", "plate.stl scale 0.5 move 0.5 -0.25 0")
     there = [left + 0.5 * width, left + width, low + height / 8, low + 0.625 * height]
     fact("half as large, moved by half its first half-width and down by a quarter of it", all(
         abs(a - b) <= 1.5 for a, b in zip(spans(small), there)), f"{spans(small)} {there}")
     cut = pixels(folder, "draw faces 2 cut 1 0 0 0", "1 0", "plate.stl")
-    fact("cut 1 0 0 0 leaves the half with x < 0", abs(spans(cut)[1] - (left + right) / 2) <= 1.5 and spans(cut)[0] == left and cut <= whole, f"{spans(cut)}")
+    fact("cut 1 0 0 0 leaves the half with x < 0", abs(spans(cut)[1] - (left + right) / 2) <= 1.5 and spans(cut)[0] == left and cut.keys() <= whole.keys(), f"{spans(cut)}")
     lines = pixels(folder, "draw edges", "0.05 0", "plate.stl")
     thick = 0.05 / 2 * width
     fact("the edges of a plate are its rim: lines of that diameter, and nothing in between", all(
         abs(a - b) <= 1.5 + thick / 2 for a, b in zip(spans(lines), spans(whole))) and not any(
             left + 2 * thick + 2 < x < right - 2 * thick - 2 and low + 2 * thick + 2 < y < high - 2 * thick - 2 for x, y in lines) and
         {x for x, y in lines if abs(y - low) <= thick + 2} >= set(range(left + 1, right)), f"{spans(lines)} {len(lines)}")
+    cuts = pixels(folder, "draw contours", "0.05 0", "plate.stl")
+    row = round(low + 0.3 * height)
+    at = [x for x in range(200) if (x, row) in cuts]
+    fact("contours are nine lines along y and one along x: here the nine", all(
+        min(abs(x - (left + (k + 0.5) / 9 * width)) for k in range(9)) <= 1.5 + thick / 2 for x in at) and all(
+            min(abs(x - (left + (k + 0.5) / 9 * width)) for x in at) <= 1.5 for k in range(9)), f"{at}")
 
 
 def test_place(folder):
