@@ -11,7 +11,7 @@ import lmp
 import stl
 import vtp
 from facts import at_most, fact
-from test_energy import ALONE, CAUSES, COLUMNS, DOWN, HELD, KN, MASS, MILL_K, MILL_LAW, NAMES, SPHERE, mill
+from test_energy import ALONE, CAUSES, COLUMNS, DOWN, GRAIN, HELD, KN, MASS, MILL_K, MILL_LAW, NAMES, SPHERE, mill
 
 COUNT, ENERGY = "f_wall[73]", "f_wall[74]"
 
@@ -181,6 +181,19 @@ def test_seam(folder):
         fact(f"{mesh}: triangles on the way", sum(e > 0 for e in found["dissipated_energy"]) >= (2 if mesh == "cut.stl" else 1))
         totals.append(of["slider"])
     at_most("another cut", abs(totals[0] - totals[1]) / totals[0], 1e-12)
+
+
+def test_ellipsoid(folder):
+    """What an ellipsoid that rocks over a cut floor dissipates is at the triangles on its way, in all as of the mesh."""
+    script = GRAIN.replace("mesh {mesh} energy", "mesh {mesh} energy mesh_fields f_*.vtp every 100")
+    row = lmp.read_thermo(lmp.run_well(script.format(
+        x="0.3 0.2 0.4", quat="0 1 0 10", spin="0.3 -0.4 0.1", v="2 0.8 -0.2", law=LAWS[1].replace("30", "5"), mesh="cut.stl", dt="5e-4",
+        columns=" ".join(COLUMNS), run="run 1000").replace("timestep", "fix pull all gravity 20 vector 0 0 -1\ntimestep", 1), folder))[-1]
+    of = dict(zip(NAMES, row[3:]))
+    found = fields(folder, 1000)["dissipated_energy"]
+    lost = sum(of[c] for c in CAUSES)
+    fact("it dissipates, on several triangles", lost > 0.1 and sum(abs(e) > 1e-6 for e in found) >= 2, (lost, found))
+    at_most("by triangle as of the mesh", abs(math.fsum(found) - lost) / lost, 1e-12)
 
 
 # ---- many spheres, processes and restart -------------------------------------------------

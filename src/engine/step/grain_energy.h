@@ -120,6 +120,8 @@ void close_grain(const Law &law, const StepJob &job, const LawAtMesh<Law> &mesh,
     const KeptForces old = EnergyBook<Law>::kept(law, s, k);
     rows[EnergyRow::seen] += old.held;
     if (!settings.update) continue;
+    [[maybe_unused]] Real lost_before = 0;
+    if constexpr (Law::kRecords) lost_before = dissipated(rows);
     const FeatureCode feature = s.springs[k].feature;
     const Vec3 n = s.springs[k].normal;
     const Real *const at = s.extra + k * n_stored(law);
@@ -134,6 +136,8 @@ void close_grain(const Law &law, const StepJob &job, const LawAtMesh<Law> &mesh,
       rows[EnergyRow::turned_springs] += energy_left(old, along, {0, 0, 0}, 0, dt);
     else
       book_springs_at_end(old, n, along, {0, 0, 0}, 0, dt, rows);
+    if constexpr (Law::kRecords)
+      job.records.put({feature, settings.mesh, dissipated(rows) - lost_before, 0, 0});
   }
 }
 

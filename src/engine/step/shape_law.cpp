@@ -43,11 +43,11 @@ CompiledLaw<CpuBackend> compiled(const Base &base, ShapeWork &work)
 
 // Returns a law for shapes with books of energy, by one of spheres that says what its force is made of. What that keeps beside its spring is
 // of effects that are off.
-template <class Base>
+template <bool kRecords, class Base>
 CompiledLaw<CpuBackend> booked(const Base &base, bool reads, ShapeWork &work)
 {
   static_assert(!Base::kBeyondContact, "such laws are not for shapes");
-  using Law = OnWall<ShapeLaw<true, true>, true, true, false, true>;
+  using Law = OnWall<ShapeLaw<true, true>, true, true, false, true, kRecords>;
   using Memory = ContactMemory<Base::kExtra>;
   work.laws.emplace_back(base);
   const auto evaluate = [](const LawBytes &of, const Contact &c, ContactMemory<0> &sliding) {
@@ -67,23 +67,25 @@ CompiledLaw<CpuBackend> booked(const Base &base, bool reads, ShapeWork &work)
   return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
 }
 
+template <bool kRecords>
 CompiledLaw<CpuBackend> booked_law(const ContactLaw &p, ShapeWork &work)
 {
   if (p.is_classic())
     return with_classic_law(p, [&](const auto &law) {
       using Base = std::decay_t<decltype(law)>;
-      return booked(AddedModel<Base, true>{law, family_of<AnyRolling>(p.rolling), {0}, p.k_tangent},
-                    reads_radius(law), work);
+      return booked<kRecords>(
+          AddedModel<Base, true>{law, family_of<AnyRolling>(p.rolling), {0}, p.k_tangent},
+          reads_radius(law), work);
     });
   const auto law = granular_model<true, true, true>(p, TouchingNormal{p.normal, p.k_normal, 0});
-  return booked(law, law.uses_contact_radius || law.elastic.uses_contact_radius(), work);
+  return booked<kRecords>(law, law.uses_contact_radius || law.elastic.uses_contact_radius(), work);
 }
 
-CompiledLaw<CpuBackend> compiled_law(const ContactLaw &p, ShapeWork &work)
+CompiledLaw<CpuBackend> compiled_law(const ContactLaw &p, bool records, ShapeWork &work)
 {
   const std::string why = why_not_for_shapes(p);
   if (!why.empty()) throw InputError(why);
-  if (p.keeps_forces) return booked_law(p, work);
+  if (p.keeps_forces) return records ? booked_law<true>(p, work) : booked_law<false>(p, work);
   if (p.is_classic())
     return with_classic_law(p, [&](const auto &law) { return compiled(law, work); });
   const TouchingNormal normal = {p.normal, p.k_normal, 0};
@@ -95,10 +97,11 @@ CompiledLaw<CpuBackend> compiled_law(const ContactLaw &p, ShapeWork &work)
 
 CompiledLaw<CpuBackend> shape_law_for(const EngineSettings &settings, ShapeWork &work)
 {
-  CompiledLaw<CpuBackend> all = compiled_law(settings.law(), work);
+  const bool records = settings.records_energy();
+  CompiledLaw<CpuBackend> all = compiled_law(settings.law(), records, work);
   all.laws.clear();
   for (const ContactLaw &law : settings.laws.laws)
-    all.laws.push_back(compiled_law(law, work).laws.front());
+    all.laws.push_back(compiled_law(law, records, work).laws.front());
   return all;
 }
 

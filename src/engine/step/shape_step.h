@@ -114,10 +114,15 @@ void add_contacts(const GridView &grid, const Law &law, const ForceSettings &set
     const auto f = law.evaluate(c, memory);
     if constexpr (Law::kEnergy) {
       if (!settings.update) memory = begun;
+      [[maybe_unused]] Real lost_before = 0;
+      if constexpr (Law::kRecords) lost_before = dissipated(sink.book->rows);
       const BookedContact<Law> booked = {
           c, f, law.parts(c, begun, memory, f), weight, c.radius, at.overlap, at.feature, {}};
       add_grain(*sink.book, law, grid.wall, settings, s, booked, at, in, *sink.marks,
                 sink.extra + out.n_contacts * n_stored(law));
+      if constexpr (Law::kRecords)
+        sink.records.put(
+            {at.feature, settings.mesh, dissipated(sink.book->rows) - lost_before, 0, 0});
     }
     if constexpr (Law::kHistory) {
       const int to = out.n_contacts;

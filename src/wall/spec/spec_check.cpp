@@ -197,10 +197,6 @@ class SpecCheck {
   {
     const std::string why = why_not_for_shapes(wall_.law());
     if (!why.empty()) refuse(kLaw, why);
-    if (wall_.has_energy_places())
-      refuse(kEnergy,
-             "what contacts of ellipsoids dissipate is not recorded by triangle: leave it out, or "
-             "mesh_fields");
     if (wall_.impact_speed > 0)
       refuse(kImpacts, "impacts of ellipsoids are not recorded: leave it out");
     if (wall_.side != Side::both)
