@@ -6,6 +6,7 @@
 Overlaps are rounded by 1e-15 of sizes of 1, which the least eigenvalue, 0.1, makes ten times as large in a weight, and are over the largest of
 a grain, which is 0.01 at least.
 """
+import functools
 import pathlib
 import tempfile
 
@@ -82,6 +83,12 @@ class Bed:
         return v - rate[:, None] * s.normal, rate
 
 
+@functools.lru_cache
+def one_mesh():
+    """The bed of all tests of one mesh: numpy takes a tenth of a second a grain."""
+    return Bed(1, [bumpy], 100)
+
+
 def elastic(bed, i):
     s = bed.shared[i]
     return KN * s.overlap[:, None] * -s.normal, np.full(len(s.overlap), KN)
@@ -154,7 +161,7 @@ def check_contacts(name, bed, wall, forces):
 
 
 def test_paths_of_a_wall():
-    bed = Bed(1, [bumpy], 100)
+    bed = one_mesh()
     several = [len(s.overlap) for s in bed.shared]
     couples = [np.abs(s.couples(np.ones(len(s.overlap)))).max() / s.overlap.max()**2 for s in bed.shared]
     fact("grains have 2 contacts and more, some fade, and some have couples", several.count(2) > 20 and sum(k > 2 for k in several) > 4 and
@@ -178,7 +185,7 @@ def test_paths_of_a_wall():
 
 def test_library_has_all_contacts():
     """Those that bear nothing, too."""
-    bed = Bed(2, [bumpy], 50)
+    bed = one_mesh()
     mesh = lsdcd.Mesh(np.array(bed.meshes[0][0], float), bed.meshes[0][1])
     found = mesh.grid().shape_contacts(bed.x, bed.half, quaternions=bed.quaternions)
     off, rows = 0, 0
@@ -208,7 +215,7 @@ def test_several_meshes():
 
 def test_meshes_that_move():
     """A pose of the program, a body and a servo: all get the torque that the grains lose."""
-    bed = Bed(4, [bumpy], 50)
+    bed = one_mesh()
     law = lsdcd.Law("hooke", kn=KN, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
     forces, couples = expected(bed, elastic)
     mesh = lsdcd.Mesh(np.array(bed.meshes[0][0], float), bed.meshes[0][1])
@@ -246,7 +253,7 @@ def test_meshes_that_move():
 
 def test_fields_of_triangles():
     """Forces of triangles are those of contacts: they add up to the force of the wall, and have no couple."""
-    bed = Bed(5, [bumpy], 50)
+    bed = one_mesh()
     mesh = lsdcd.Mesh(np.array(bed.meshes[0][0], float), bed.meshes[0][1])
     with tempfile.TemporaryDirectory() as folder:
         name = str(pathlib.Path(folder) / "wall.vtp")
