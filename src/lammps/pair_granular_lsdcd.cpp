@@ -163,6 +163,8 @@ void PairGranularLsdcd::init_style()
   numbers.clear();
   laws.clear();
   flips_of.clear();
+  without_law.clear();
+  std::fill(law_of.begin(), law_of.end(), 0);
   const auto add = [&](const lsdcd::PairCoeff &coeff) {
     // Pairs of one law are computed together.
     for (std::size_t k = 0; k < coeffs.size(); k++)
@@ -188,8 +190,15 @@ void PairGranularLsdcd::init_style()
         law = add(own->second);
       } else {
         const auto a = given.find({i, i}), b = given.find({j, j});
+        std::string &why = without_law[{i, j}];
         if (a == given.end() || b == given.end()) continue;    // LAMMPS tells what is missing
-        law = add(lsdcd::mixed(a->second, b->second, types_text(i, j)));
+        try {
+          law = add(lsdcd::mixed(a->second, b->second, types_text(i, j)));
+        } catch (const lsdcd::InputError &e) {
+          why = e.what();
+          continue;
+        }
+        without_law.erase({i, j});
       }
       law_of[i * n + j] = law_of[j * n + i] = law;
     }
@@ -339,6 +348,8 @@ double PairGranularLsdcd::reach(int i, int j, double radius, double other) const
 
 double PairGranularLsdcd::init_one(int i, int j)
 {
+  const auto none = without_law.find({i, j});
+  if (none != without_law.end() && !none->second.empty()) throw lsdcd::InputError(none->second);
   const double own = coeffs[law_index(i, j)].cutoff;
   const Radii a = radii[i], b = radii[j];
   // Grains that touch further apart than a given cutoff would do so in one process, and not across a border.
@@ -398,6 +409,10 @@ void PairGranularLsdcd::tell_laws()
   const auto words = [this](int i, int j) { return lsdcd::text_of(coeffs[law_index(i, j)]); };
   for (int i = 1; i <= n_types && !laws.empty(); i++)
     for (int j = i; j <= n_types; j++) {
+      if (without_law.count({i, j})) {
+        same = false;
+        continue;
+      }
       same = same && words(i, j) == words(1, 1);
       text += "\n  types " + std::to_string(i) + " " + std::to_string(j) + ": " + words(i, j) +
               (given.count({i, j}) ? "" : " (mixed)");
@@ -419,7 +434,8 @@ void PairGranularLsdcd::check_step()
   for (int i = 1; i <= n_types; i++)
     for (int j = i; j <= n_types; j++) {
       const Radii a = radii[i], b = radii[j];
-      if (!(a.least > 0 && b.least > 0 && a.least_mass > 0 && b.least_mass > 0) || laws.empty())
+      if (!(a.least > 0 && b.least > 0 && a.least_mass > 0 && b.least_mass > 0) || laws.empty() ||
+          without_law.count({i, j}))
         continue;
       const lsdcd::ContactLaw &law = numbers[law_index(i, j)];
       const auto reduced = [](double of_a, double of_b) { return of_a * of_b / (of_a + of_b); };

@@ -76,6 +76,8 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::vector<lsdcd::PairCoeff> coeffs;                     // of each law
   std::vector<lsdcd::PairLaw> laws;                         // the same, compiled
   std::vector<unsigned> flips_of;                           // the same: see ContactLaw::flips()
+  std::map<std::pair<int, int>, std::string>
+      without_law;    // types that cannot be mixed, and why; within a hybrid style they may have another style
   std::vector<Radii> radii;
   bool told = false;
   double warned_of = 0;    // the timestep that the last warning was about

@@ -381,6 +381,15 @@ fix grow all adapt 1 atom diameter v_d
     at_most("the push", abs(push / (-1e4 * 0.2 * (0.425 * 0.2)**0.5) - 1), 1e-10)
 
 
+def test_hybrid_of_laws(folder):
+    """Within a hybrid style two types whose laws cannot be mixed may have a pair of another style."""
+    laws = ("hooke 1e4 0 tangential linear_nohistory 0 0", GRANULAR)
+    plain = states(folder, ours(f"1 1 {laws[0]}", f"2 2 {laws[1]}", f"1 2 {laws[0]}"), name="plain", data="two.data")
+    hybrid = states(folder, "pair_style hybrid granular/lsdcd gran/hooke 1e4 0 0 0 0 0\n" +
+                    f"pair_coeff 1 1 granular/lsdcd {laws[0]}\npair_coeff 2 2 granular/lsdcd {laws[1]}\npair_coeff 1 2 gran/hooke", data="two.data")
+    at_most("hybrid", lmp.largest_difference(plain, hybrid), 1e-10)
+
+
 def test_excluded(folder):
     """Pairs that neigh_modify exclude leaves out do not act."""
     gas = states(folder, ours("* * " + GRANULAR), more="neigh_modify exclude type 1 1")
