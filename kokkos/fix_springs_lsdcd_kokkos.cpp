@@ -120,6 +120,13 @@ void FixSpringsLsdcdKokkos<DeviceType>::set_arrays(int i)
 }
 
 template <class DeviceType>
+const double *FixSpringsLsdcdKokkos<DeviceType>::radii()
+{
+  atomKK->sync(Host, RADIUS_MASK);
+  return atom->radius;
+}
+
+template <class DeviceType>
 const tagint *FixSpringsLsdcdKokkos<DeviceType>::tags()
 {
   atomKK->sync(Host, TAG_MASK);

@@ -38,6 +38,7 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
   int largest_packed_size() const override;
   lsdcd::Partners &of_atoms() override;
   const tagint *tags() override;
+  const double *radii() override;
 
  private:
   friend class PairGranularLsdcdKokkos<DeviceType>;

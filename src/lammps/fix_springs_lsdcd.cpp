@@ -196,6 +196,9 @@ void FixSpringsLsdcd::pre_exchange()
 void FixSpringsLsdcd::post_neighbor()
 {
   new_list = true;
+  if (!watches_radii) return;
+  const double *const radius = radii();
+  listed_radius.assign(radius, radius + atom->nlocal);
 }
 
 // Atoms may be deleted between runs, and others get their IDs: delete_atoms gives all of them new ones.

@@ -76,6 +76,7 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   virtual void forget();
   // IDs of atoms on the CPU.
   virtual const tagint *tags() { return atom->tag; }
+  virtual const double *radii() { return atom->radius; }
   // Keeps the IDs that atoms have, for rename_partners().
   void keep_names();
   virtual int largest_packed_size() const { return partners.largest_packed_size(); }
@@ -103,6 +104,9 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   bool between_runs = true;
   std::vector<tagint> known_as;
   RerunWatch watch;
+  // Of atoms when the list was made, where something changes them.
+  bool watches_radii = false;
+  std::vector<double> listed_radius;
 
  private:
   void bring_to_atoms();

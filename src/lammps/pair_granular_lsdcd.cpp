@@ -259,7 +259,7 @@ void PairGranularLsdcd::set_springs()
       any = true;
       width = std::max(width, 3 + law.n_extra());
     }
-  any = any || books;
+  any = any || books || adapts;
   if (books)
     for (unsigned &flips : flips_of) flips |= lsdcd::KeptForces::flips() << width;
   if (any && !springs)
@@ -269,6 +269,7 @@ void PairGranularLsdcd::set_springs()
     fatal("fix " + springs_id + ", which keeps the springs of pairs, is gone: do not unfix it");
   if (!springs) return;
   check_order();
+  springs->watches_radii = adapts;
   springs->set_laws(width, books, kinds,
                     [this](int i, int j) { return flips_of[law_index(i, j)]; });
 }
@@ -381,25 +382,20 @@ void PairGranularLsdcd::check_growth()
 {
   if (!adapts) return;
   const double spare = neighbor->skin / 4;
-  if (neighbor->ago == 0) {
-    listed_radius.assign(atom->radius, atom->radius + atom->nlocal);
-    for (int i = 0; i < atom->nlocal; i++) {
-      const Radii &r = radii[atom->type[i]];
-      if (atom->radius[i] > spare + (atom->mask[i] & frozen ? r.frozen : r.moving))
-        fatal_here("the radius of atom " + std::to_string(atom->tag[i]) + " has grown to " +
-                   lsdcd::number_text(atom->radius[i]) +
-                   ", for which contacts would be missed: end the run before the largest radius "
-                   "has grown by a quarter of the skin, as by 'run N every M NULL', or make the "
-                   "skin larger (neighbor)");
-    }
-    return;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const Radii &r = radii[atom->type[i]];
+    const bool listed = atom->radius[i] <= spare + springs->listed_radius[i];
+    if (listed && atom->radius[i] <= spare + (atom->mask[i] & frozen ? r.frozen : r.moving))
+      continue;
+    fatal_here("the radius of atom " + std::to_string(atom->tag[i]) + " has grown to " +
+               lsdcd::number_text(atom->radius[i]) + ", for which contacts would be missed: " +
+               (listed ? "end the run before the largest radius has grown by a quarter of the "
+                         "skin, as by 'run N every M NULL', or make the skin larger (neighbor)"
+                       : "since neighbor lists were made it was " +
+                             lsdcd::number_text(springs->listed_radius[i]) +
+                             ", and may grow by a quarter of the skin: write 'neigh_modify check "
+                             "no' with a smaller 'every', and set radii before the run"));
   }
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->radius[i] > spare + listed_radius[i])
-      fatal_here("the radius of atom " + std::to_string(atom->tag[i]) +
-                 " has grown by more than a quarter of the skin since neighbor lists were made, "
-                 "and contacts would be missed: write 'neigh_modify check no' with a smaller "
-                 "'every'");
 }
 
 void PairGranularLsdcd::tell_laws()

@@ -90,7 +90,6 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::vector<int> law_of;                   // of types i and j at i * (n_types + 1) + j
   bool has_heat = false, books = false;
   bool adapts = false;                         // there is a fix adapt, which may change radii
-  std::vector<double> listed_radius;           // of atoms when the list was made, where there is
   class FixSpringsLsdcd *springs = nullptr;    // null: no law has kept anything yet
   class Fix *rigid = nullptr;
   int frozen = 0;                // bit of the group of fix freeze

@@ -374,8 +374,10 @@ def test_growth(folder):
 variable d equal 1+step*0.001
 fix grow all adapt 1 atom diameter v_d
 """ + dump("out", 700)
-    for check, says in (("yes", "since neighbor lists were made"), ("no", "end the run before")):
+    for check, says in (("yes", "contacts would be missed"), ("no", "end the run before")):
         lmp.refused(f"check {check}", text + f"neigh_modify delay 0 every 1 check {check}\nrun 700\n", folder, says)
+    # A grain that becomes as large as the others are, after the list was made.
+    lmp.refused("in the setup", text.replace("fix grow", "set atom 2 diameter 0.3\nfix grow") + "run 0\n", folder, "it was 0.15", "set radii before")
     lmp.run_well(text + "run 700 every 20 NULL\n", folder)
     push = lmp.read_dump(folder / "out")[700][1][9]
     at_most("the push", abs(push / (-1e4 * 0.2 * (0.425 * 0.2)**0.5) - 1), 1e-10)
