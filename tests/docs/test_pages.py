@@ -372,15 +372,20 @@ timestep        1e-7
 thermo_style    custom step
 """
 FIX = "fix w all wall/lsdcd hertz/history 1e5 NULL 50 NULL 0.5 1 mesh floor.stl"
-# A LAMMPS that is older than heat stops there, when all words of the line have been read.
+# A LAMMPS that is older than heat stops there, when all words of the line have been read; a newer one if atoms have no temperature.
 NO_HEAT = "the sub-model heat needs a LAMMPS with fix heat/flow"
+NO_TEMPERATURE = "the sub-model heat needs a temperature and a heat flow per atom"
+WARM = "fix warm all property/atom temperature heatflow ghost yes\nset group all temperature 300\n"
 
 
 def run_heat(script, folder):
-    """Once more without the lines with heat, where these cannot run."""
-    done = lmp.run(script, folder, env={"LSDCD_POTENTIALS": str(ROOT / "potentials")})
+    """Once more without the lines with heat, where these cannot run, or with temperatures, where these are missing."""
+    env = {"LSDCD_POTENTIALS": str(ROOT / "potentials")}
+    done = lmp.run(script, folder, env=env)
     if NO_HEAT in done.stdout:
         return run_heat(re.sub(r"^fix (\S+) .* heat (radius|area) .*$", r"fix \1 all viscous 0", script, flags=re.M), folder)
+    if NO_TEMPERATURE in done.stdout:
+        return lmp.run(re.sub(r"^(?=fix \S+ .* heat (?:radius|area) )", WARM, script, count=1, flags=re.M), folder, env=env)
     return done
 
 

@@ -147,9 +147,9 @@ TABLES = [
 
     # fix wall/lsdcd: the words after its style. Then fix_modify.
     (WALL + "fix             wall all wall/lsdcd {}\n" + RUN, [
-        ("granular_heat_without_host",
+        ("granular_heat_without",
          "granular hertz 1e5 3 tangential linear_nohistory 0 0 heat area 1 mesh floor.stl temperature 300",
-         "the sub-model heat needs a LAMMPS with fix heat/flow"),
+         "the sub-model heat needs a " + ("LAMMPS with fix heat/flow" if lmp.version() < 20230802 else "temperature and a heat flow per atom")),
         ("material_units", "granular material glass.lsdcd glass mesh floor.stl",
          "the input script is in units lj", "'units si'"),
         ("negative_kn", "hooke -1e4 NULL 5 NULL 0.5 1 mesh floor.stl",
@@ -257,7 +257,7 @@ TABLES = [
          "atoms with molecule IDs", "fix property/atom mol"),
         ("collide_no_words", "", "FIX_ID is missing", "Syntax: compute ID group lsdcd/collide FIX_ID mesh FILE"),
         ("collide_not_rigid", "wall mesh floor.stl\n"
-         "velocity        all create 1e6 4711 loop geom\n"
+         "velocity        all create 10 4711 loop geom\n"
          "thermo          1\n"
          "thermo_style    custom step c_c",
          "at step 1", "is not a rigid copy", "fix rigid"),

@@ -117,12 +117,17 @@ def column():
     return "F" if version() < 20220101 else "f"
 
 
+def has_wrong_walls(host=ON_HOST):
+    """Whether fix wall/gran of the LAMMPS, or of the other one, computes hooke/history and hertz/history wrongly: from 28Mar2023 until May 2026."""
+    return 20230328 <= version(host) < 20260501
+
+
 CLASSIC = re.compile(r"(wall/gran(?:/region)?) +(hooke|hooke/history|hertz/history) +(\S+) (\S+) (\S+) (\S+) (\S+) ([01])(?: (limit_damping))?(?!\S)")
 
 
 def right_walls(text, units="lj"):
-    """The same, with the laws of LAMMPS's own walls in the words of granular, which is right where the older words are wrong: from
-    28Mar2023 until May 2026 they pass numbers of hooke to the wrong places (to 17Apr2024), multiply kt of hooke/history by the contact
+    """The same, with the laws of LAMMPS's own walls in the words of granular, which is right where the older words are wrong: where
+    has_wrong_walls() they pass numbers of hooke to the wrong places (to 17Apr2024), multiply kt of hooke/history by the contact
     radius, leave it out where a spring of hertz/history slips, and give nan without gamma_n (doc/other-walls.md)."""
     def granular(found):
         wall, law, kn, kt, gamma_n, gamma_t, mu, damped, limited = found.groups()
@@ -145,7 +150,7 @@ def run(script, folder, ranks=1, timeout=300, env=None, host=ON_HOST, flags=FLAG
     """Runs a script (a path, or text) in `folder`; returns the finished process. With `host` under that LAMMPS, which loads
     the plugin first, given `flags`."""
     script, folder = str(script), pathlib.Path(folder)
-    if 20230328 <= version(host) < 20260501:
+    if has_wrong_walls(host):
         variables = {name: right_walls(str(value), variables.get("unit")) for name, value in variables.items()}
         script = right_walls(script)
     if "\n" in script:

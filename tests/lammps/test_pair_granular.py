@@ -277,8 +277,11 @@ def test_levels_of_respa(folder):
     """Springs move by the timestep of their level: pairs at the inner level of two are those of half the timestep."""
     law, more = ours("* * " + FULL), "fix i all nve"
     lmp.run_well(settings() + f"read_data grains.data\n{law}\n{more}\ntimestep {DT / 2}\n" + dump("half", 100) + "run 200\n", folder)
-    lmp.run_well(settings() + f"read_data grains.data\n{law}\n{more}\nrun_style respa 2 2 pair 1\ntimestep {DT}\n" + dump("levels", 50) +
-                 "run 100\n", folder)
+    respa = settings() + f"read_data grains.data\n{law}\n{more}\nrun_style respa 2 2 pair 1\ntimestep {DT}\n" + dump("levels", 50) + "run 100\n"
+    if lmp.version() > 20210929 and not lmp.ON_HOST:    # Debian's package lacks respa.h
+        lmp.refused("respa", respa, folder, "does not say which timestep a level of run_style respa has")
+        return
+    lmp.run_well(respa, folder)
     half, levels = lmp.read_dump(folder / "half"), lmp.read_dump(folder / "levels")
     at_most("respa", lmp.largest_difference({k // 2: v for k, v in half.items()}, levels), 1e-10)
 

@@ -610,7 +610,9 @@ TEST(grain_folds, are_pushed_by_a_face_to_the_side_of_their_centre_at_any_depth)
     const Vec3 x = {uniform(random, -0.5, 0.5), 0, uniform(random, 0.1, 1)};
     n_deep += rod.at(x, random_turn(random)).overlap > rod.shape.rho;
     for (const StepContact &c : rod.scene.engine->results().contacts())
-      if (feature_kind(c.feature) == FeatureKind::face) EXPECT_GE(-dot(c.force, c.arm), 0) << seed;
+      if (feature_kind(c.feature) == FeatureKind::face) {
+        EXPECT_GE(-dot(c.force, c.arm), 0) << seed;
+      }
   }
   EXPECT_GT(n_deep, 150);
 }

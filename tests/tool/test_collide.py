@@ -71,7 +71,7 @@ def test_many(folder):
     blades = [[m - a * along - a * up, m + a * along - a * up, m + a * up] for m in middle]
     stl.write(folder / "blades.stl", blades[::-1])
     heights = np.linspace(0.05, -0.05, 10)
-    (folder / "path.txt").write_text("x,y,z,qw,qx,qy,qz\n# sinks\n\n" + "".join(f"0,{y!r},0,1,0,0,0\n" for y in heights))
+    (folder / "path.txt").write_text("x,y,z,qw,qx,qy,qz\n# sinks\n\n" + "".join(f"0,{y!r},0,1,0,0,0\n" for y in heights.tolist()))
     said = told(folder, "collide", "squares.stl", "blades.stl", "--poses", "path.txt", "-o", "pairs.csv",
                 "--segments", "cuts.csv", "--threads", 2)
     # In: the lower edge is below 0 and the tip above.

@@ -328,7 +328,7 @@ class RigidBody(_Spec):
         stiffness, damping, rest = _tuple(spring, "(stiffness, damping, rest)", "spring")
         self._struct = _sized(
             _RigidBody, density=density, mass=mass, centre=_three(centre, "centre"),
-            inertia=(ctypes.c_double * 6)(*moments.tolist()),
+            inertia=(ctypes.c_double * 6)(*map(float, moments)),
             joint=_chosen("joint", joint, ("free", "hinge", "slider", "planar", "ball")), point=_three(point, "point"),
             axis=_three(axis, "axis"), stiffness=stiffness, damping=damping, rest=rest, lo=lo, hi=hi, motor=motor,
             load=_three(load, "load"), moment=_three(moment, "moment"), velocity=_three(velocity, "velocity"),
@@ -484,7 +484,7 @@ def _three(values: ArrayLike, name: str) -> Any:
     numbers = _numbers(values, (3,), name)
     if numbers is None:
         raise TypeError(f"{name} is None, not three numbers")
-    return (ctypes.c_double * 3)(*numbers.tolist())
+    return (ctypes.c_double * 3)(*map(float, numbers))
 
 
 def _address(value: Any, kind: Any, name: str) -> int | None:
