@@ -12,8 +12,9 @@ namespace lsdcd {
 // Contacts of one sphere, at most: more are an error.
 constexpr int kMaxContacts = 512;
 
-// The contacts of a set of any size, borrowed.
+// The contacts of a set of any size, borrowed. The step asks the same of those of other grains (grain_contacts.h).
 struct ContactsView {
+  static constexpr bool kHasArms = false;    // are they kept with the springs?
   int n;
   const FeatureCode *feature;
   const Vec3 *normal;
@@ -23,6 +24,9 @@ struct ContactsView {
   {
     return {n_of_part, feature + from, normal + from, distance + from};
   }
+  // Of a sphere of this radius at x, where the normal of contact i is n.
+  LSDCD_FN Real overlap_of(int i, Real radius) const { return radius - distance[i]; }
+  LSDCD_FN Vec3 foot_of(int i, const Vec3 &x, const Vec3 &n) const { return x - distance[i] * n; }
 };
 
 // An array of a set. A set of one needs no index, so that it can stay in registers.

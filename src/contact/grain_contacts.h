@@ -61,22 +61,34 @@ struct GrainContact {
   GrainDirection direction;
   const GrainMetric *metric;    // of the grain in that frame
   Vec3 couple = {0, 0, 0};      // torque on the grain that is not by the force at this contact
-  // How deep it may be for a force that does not jump where it ends: the radius of curvature of the grain's shadow across the fold
-  // or edge; length.
-  Real limit = HUGE_VAL;
 };
 
+// The contacts of a grain that is no sphere, borrowed, as the step asks of them.
 struct GrainContactsView {
+  // A member of each of them.
+  template <class T>
+  struct Member {
+    const GrainContact *at;
+    T GrainContact::*member;
+
+    const T &operator[](int i) const { return at[i].*member; }
+  };
+
+  static constexpr bool kHasArms = true;
   int n;
   const GrainContact *at;
   const Superellipsoid *shape;
-  std::size_t grain;    // its index
+  Member<FeatureCode> feature = {at, &GrainContact::feature};
+  Member<Vec3> normal = {at, &GrainContact::normal};
 
-  GrainContactsView part(int from, int n_of_part) const
-  {
-    return {n_of_part, at + from, shape, grain};
-  }
+  GrainContactsView part(int from, int n_of_part) const { return {n_of_part, at + from, shape}; }
+  Real overlap_of(int i, Real) const { return at[i].overlap; }
+  const Vec3 &foot_of(int i, const Vec3 &, const Vec3 &) const { return at[i].foot; }
 };
+inline const GrainDirection &direction_of(const GrainContactsView &set, int i)
+{
+  return set.at[i].direction;
+}
 
 // The springs of the last step, as one mesh sees them: each has an arm beside its shear displacement.
 template <class Springs>
@@ -84,55 +96,44 @@ struct OldGrainContacts {
   const Springs &springs;
   const Real *
       extra;    // n_extra for each spring, of which the first three are the arm in the frame of the spring's mesh
-  int n_extra, n;
+  int n_extra;
   const GrainMetric &metric;
 
+  decltype(auto) operator[](int k) const { return springs[k]; }
   Vec3 arm(int k) const
   {
     const Real *at = extra + k * n_extra;
     return in_own_frame(springs, k, {at[0], at[1], at[2]});
   }
-  GrainDirection direction(int k) const { return metric.direction(springs[k].normal, arm(k)); }
 };
-
-// Was the contact of old spring k left, as contact i sees it? As is_left() of spheres.
 template <class Springs>
-bool is_left(const GrainContactsView &set, int i, const OldGrainContacts<Springs> &old, int k)
+bool is_own(const OldGrainContacts<Springs> &old, int k)
 {
-  const GrainDirection was = old.direction(k);
-  const bool carries = dot(set.at[i].direction, was) > kSameDirection;
-  for (int j = 0; j < set.n; j++)
-    if ((is_own(old.springs, k) && set.at[j].feature == old.springs[k].feature) ||
-        (!carries && dot(set.at[j].direction, was) > kSameDirection))
-      return false;
-  return true;
+  return is_own(old.springs, k);
+}
+template <class Springs>
+GrainDirection old_direction(const OldGrainContacts<Springs> &old, int k)
+{
+  return old.metric.direction(old[k].normal, old.arm(k));
 }
 
-// Returns which old spring contact i goes on with, as for spheres but for two things. A contact that has moved need not be next
-// to where it was: under a flat side it may jump over many triangles in one step. And of several springs that were left it takes
-// over the most alike one.
+// What transfer_of() asks beside: a contact that has moved need not be next to where it was, as under a flat side it may jump over
+// many triangles in one step. So of several springs that were left it takes over the most alike one.
 template <class Springs>
-Transfer transfer_of(const GrainContactsView &set, int i, const OldGrainContacts<Springs> &old)
+Real likeness_to_old(const GrainContactsView &set, int i, const OldGrainContacts<Springs> &old,
+                     int k, Real)
 {
-  const GrainContact &now = set.at[i];
-  int best = -1, moved = -1;
-  Real best_cos = 0, moved_cos = -1;
-  for (int k = 0; k < old.n; k++) {
-    const Real of_normals = dot(old.springs[k].normal, now.normal);
-    const bool own = is_own(old.springs, k);
-    if (own && old.springs[k].feature == now.feature) return {of_normals > -kMoved ? k : -1, 1};
-    const Real c = dot(old.direction(k), now.direction);
-    if (c > best_cos) {
-      best_cos = c;
-      best = k;
-    }
-    if (own && of_normals > kMoved && c > moved_cos && is_left(set, i, old, k)) {
-      moved_cos = c;
-      moved = k;
-    }
-  }
-  if (moved >= 0) return {moved, 1};
-  return {best, best_cos > 1 ? 1 : best_cos};
+  return dot(old_direction(old, k), set.at[i].direction);
+}
+template <class Springs>
+bool may_have_moved(const MeshFeaturesView &, const GrainContactsView &, int,
+                    const OldGrainContacts<Springs> &, int, Real of_normals)
+{
+  return of_normals > kMoved;
+}
+inline Real least_likeness_of_moved(const GrainContactsView &)
+{
+  return -1;
 }
 
 }    // namespace lsdcd

@@ -71,16 +71,32 @@ LSDCD_FN Vec3 in_own_frame(const Spring *, int, const Vec3 &h)
 // turns a normal.
 constexpr Real kSameDirection = 1 - 1e-6;
 
+// What of two contacts of a sphere is compared: their normals. Of other grains it is more (grain_contacts.h).
+LSDCD_FN const Vec3 &direction_of(const ContactsView &set, int i)
+{
+  return set.normal[i];
+}
+LSDCD_FN const Vec3 &old_direction(const Spring *old, int k)
+{
+  return old[k].normal;
+}
+template <class Springs>
+LSDCD_FN Vec3 old_direction(const Springs &old, int k)
+{
+  return old[k].normal;
+}
+
 // Was the contact of old spring k left, as contact i sees it? It was not if its feature is still in contact, or if
 // another contact carries it on: one in its direction, where contact i is not. There the sphere crossed a line that
 // cuts a face or an edge in two, and without that cut it would have left nothing.
-template <class Springs>
-LSDCD_FN bool is_left(const ContactsView &set, int i, const Springs &old, int k)
+template <class Set, class Springs>
+LSDCD_FN bool is_left(const Set &set, int i, const Springs &old, int k)
 {
-  const bool carries = dot(set.normal[i], old[k].normal) > kSameDirection;
+  const auto &was = old_direction(old, k);
+  const bool carries = dot(direction_of(set, i), was) > kSameDirection;
   for (int j = 0; j < set.n; j++)
     if (set.feature[j] == old[k].feature ||
-        (!carries && dot(set.normal[j], old[k].normal) > kSameDirection))
+        (!carries && dot(direction_of(set, j), was) > kSameDirection))
       return false;
   return true;
 }
@@ -91,27 +107,46 @@ struct Transfer {
   Real part;    // 0 to 1
 };
 
+// How much contact i of a sphere is like old spring k, of which the normals have this cosine; may it have moved from there; and how
+// alike it is at least then.
+template <class Springs>
+LSDCD_FN Real likeness_to_old(const ContactsView &, int, const Springs &, int, Real of_normals)
+{
+  return of_normals;
+}
+template <class Springs>
+LSDCD_FN bool may_have_moved(const MeshFeaturesView &wall, const ContactsView &set, int i,
+                             const Springs &old, int k, Real)
+{
+  return are_adjacent(wall, old[k].feature, set.feature[i]);
+}
+LSDCD_FN Real least_likeness_of_moved(const ContactsView &)
+{
+  return kMoved;
+}
+
 // 1. The spring of the same feature, unless the normal has turned round.
 // 2. Else one whose contact was left this step, next to this one and nearly
 //    aligned: the contact moved across a seam, the spring goes with it, whole.
-// 3. Else the best aligned spring times max(0, n.n): a contact born beside
+// 3. Else the most alike spring times its likeness, of spheres max(0, n.n): a contact born beside
 //    others takes over as much of their force as it will carry in their stead.
 // Springs of other meshes hand over by 3 alone, as their features are not this wall's.
-template <class Springs>
-LSDCD_FN Transfer transfer_of(const MeshFeaturesView &wall, const ContactsView &set, int i,
+template <class Set, class Springs>
+LSDCD_FN Transfer transfer_of(const MeshFeaturesView &wall, const Set &set, int i,
                               const Springs &old, int n_old)
 {
   int best = -1, moved = -1;
-  Real best_cos = 0, moved_cos = kMoved;
+  Real best_cos = 0, moved_cos = least_likeness_of_moved(set);
   for (int k = 0; k < n_old; k++) {
-    const Real c = dot(old[k].normal, set.normal[i]);
+    const Real of_normals = dot(old[k].normal, set.normal[i]);
     const bool own = is_own(old, k);
-    if (own && old[k].feature == set.feature[i]) return {c > -kMoved ? k : -1, 1};
+    if (own && old[k].feature == set.feature[i]) return {of_normals > -kMoved ? k : -1, 1};
+    const Real c = likeness_to_old(set, i, old, k, of_normals);
     if (c > best_cos) {
       best_cos = c;
       best = k;
     }
-    if (own && c > moved_cos && are_adjacent(wall, old[k].feature, set.feature[i]) &&
+    if (own && c > moved_cos && may_have_moved(wall, set, i, old, k, of_normals) &&
         is_left(set, i, old, k)) {
       moved_cos = c;
       moved = k;

@@ -164,10 +164,9 @@ struct MeshWork {
 
 // Memory of contact i at the start of the step: that of the last step, turned with the normal, and about the
 // normal with a surface that turns.
-template <class Law, class Springs>
-LSDCD_FN auto memory_from_last_step(const Law &law, const ForceSettings &settings,
-                                    const ContactsView &set, int i,
-                                    const SphereStateWith<Springs> &s, const Transfer &in)
+template <class Law, class Set, class Springs>
+LSDCD_FN auto memory_from_last_step(const Law &law, const ForceSettings &settings, const Set &set,
+                                    int i, const SphereStateWith<Springs> &s, const Transfer &in)
 {
   ContactMemory<Law::kExtra> memory = {};
   if constexpr (Law::kHistory) {
@@ -181,7 +180,7 @@ LSDCD_FN auto memory_from_last_step(const Law &law, const ForceSettings &setting
       return now;
     };
     memory.shear = turned(s.springs[in.from].shear);
-    if constexpr (Law::kExtra > 0) {
+    if constexpr (Law::kExtra > 0 && !Set::kHasArms) {
       const Real *old = s.extra + in.from * n_stored(law);
       for (int k = 0; k < Law::kVectors; k++)
         if (law.stores(k)) {
@@ -217,16 +216,72 @@ LSDCD_FN void add_impact(const Contact &c, Real least_speed, EnergyRecord &recor
   record.speed = speed;
 }
 
+// What is apart for a sphere and for another grain (shape_step.h) in add_contacts(). Of a sphere the arm of friction is along the
+// normal, and pressing turns nothing.
+template <class Law, class Springs>
+LSDCD_FN Transfer transfer_to(const GridView &grid, const Law &, const ContactsView &set, int i,
+                              const SphereStateWith<Springs> &s)
+{
+  return transfer_of(grid.wall, set, i, s.springs, s.n_springs);
+}
+// The radius over which overlaps are reported, and that which a law reads of contact i.
+template <class Springs>
+LSDCD_FN Real radius_of(const ContactsView &, const SphereStateWith<Springs> &s)
+{
+  return s.radius;
+}
+template <class Law, class Springs>
+LSDCD_FN Real radius_of(const Law &, const ContactsView &, int, const SphereStateWith<Springs> &s)
+{
+  return s.radius;
+}
+template <class Law, class Springs>
+LSDCD_FN Real arm_of(const Law &law, const ContactsView &, int, Real overlap,
+                     const SphereStateWith<Springs> &s)
+{
+  Real arm = s.radius;
+  if constexpr (Law::kMidpoint)
+    if (law.is_at_midpoint()) arm -= overlap / 2;
+  return arm;
+}
+// Sets the velocities at a contact, of those of the centre away from the wall and along it.
+LSDCD_FN void add_spin(Real away, const Vec3 &along, const Vec3 &omega, Real arm, Contact &c)
+{
+  c.v_normal = away;
+  c.v_tangent = along - arm * cross(omega, c.normal);
+}
+LSDCD_FN void add_torque(Real arm, const Vec3 &n, const Vec3 &, const Vec3 &tangential,
+                         Vec3 &torque)
+{
+  torque -= arm * cross(n, tangential);
+}
+
+struct BookedLengths {
+  Real distance, arm;    // as in BookedContact
+};
+LSDCD_FN BookedLengths booked_lengths(const ContactsView &set, int i, Real arm, const Contact &)
+{
+  return {set.distance[i], arm};
+}
+template <class Law, class Springs>
+LSDCD_FN void book_contact(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wall,
+                           const ForceSettings &settings, const SphereStateWith<Springs> &s,
+                           const ContactsView &, int, const BookedContact<Law> &booked,
+                           const Transfer &in, EnergyMarks &marks, Real *to)
+{
+  book.add(law, wall, settings, s, booked, in, marks, to);
+}
+
 // Evaluates the law for each contact and adds its force, torque and energy to `out`. `weights` null: all are 1.
-template <class Law, class Springs, class Sink>
+template <class Law, class Springs, class Set, class Sink>
 LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
-                           const SphereStateWith<Springs> &s, const ContactsView &set,
-                           const Real *weights, const Sink &sink, SphereResult &out)
+                           const SphereStateWith<Springs> &s, const Set &set, const Real *weights,
+                           const Sink &sink, SphereResult &out)
 {
   [[maybe_unused]] const std::uint32_t mesh = Law::kPosed ? settings.mesh : 0;
   for (int i = 0; i < set.n; i++) {
     const Real weight = weights ? weights[i] : 1;
-    const Real overlap = s.radius - set.distance[i], ratio = overlap / s.radius;
+    const Real overlap = set.overlap_of(i, s.radius), ratio = overlap / radius_of(set, s);
     if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
     // A contact that bears nothing, as the far face of a thin plate, is none. Nor has
     // it a spring yet: cut to the friction limit of its own slight overlap, that would
@@ -234,7 +289,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     if (!(weight > 0)) continue;
 
     const Vec3 n = set.normal[i];
-    const Vec3 closest = s.x - set.distance[i] * n;
+    const Vec3 closest = set.foot_of(i, s.x, n);
     Vec3 v = s.v;
     if constexpr (Law::kPosed)
       if (settings.pose.placed) {
@@ -248,25 +303,24 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
         nodes = node_shares(grid.wall, set.feature[i], closest);
         v -= field_at(nodes, settings.nodes.velocity);
       }
-    const Real v_normal = dot(v, n);
+    const Real away = dot(v, n);    // of the centre
     Contact c;
     c.normal = n;
     c.overlap = overlap;
-    c.radius = s.radius;
+    c.radius = radius_of(law, set, i, s);
     c.mass = s.mass;
     if constexpr (Law::kKeepsContacts)
       if (settings.gives_way) c.mass = 1 / (1 / s.mass + settings.mobility.along(closest, n));
-    c.v_normal = v_normal;
-    Vec3 along = v - v_normal * n;
+    Vec3 along = v - away * n;
     if constexpr (Law::kPosed)
       if (settings.surface_moves) along -= settings.surface.along(closest, n, settings.back);
-    Real arm = s.radius;    // of friction
-    if constexpr (Law::kMidpoint)
-      if (law.is_at_midpoint()) arm -= overlap / 2;
-    c.v_tangent = along - arm * cross(s.omega, n);
+    const auto arm = arm_of(law, set, i, overlap, s);    // of friction
+    add_spin(away, along, s.omega, arm, c);
     c.dt = settings.dt;
     c.update = settings.update;
-    if constexpr (Law::kContactTorque) {
+    if constexpr (Set::kHasArms) {
+      c.omega = {0, 0, 0};    // nothing rolls or twists
+    } else if constexpr (Law::kContactTorque) {
       // Rolling and twisting are relative to a wall that turns.
       Vec3 omega = s.omega;
       if constexpr (Law::kPosed) omega -= settings.wall_angular + settings.surface.angular;
@@ -278,8 +332,9 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       if (law.has_heat()) c.temperature_difference = settings.wall_temperature - s.temperature;
 
     Transfer in = {-1, 0};
-    if constexpr (Law::kHistory) in = transfer_of(grid.wall, set, i, s.springs, s.n_springs);
+    if constexpr (Law::kHistory) in = transfer_to(grid, law, set, i, s);
     auto memory = memory_from_last_step(law, settings, set, i, s, in);
+    if constexpr (Set::kHasArms && Law::kHistory) memory.put(0, arm.arm);
     [[maybe_unused]] const auto begun = memory;
     const auto f = law.evaluate(c, memory);
     if constexpr (Law::kSetsUp)
@@ -289,11 +344,17 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     if constexpr (Law::kEnergy) {
       slid_before = sink.book->rows[EnergyRow::slider];
       if constexpr (Law::kRecords) lost_before = dissipated(sink.book->rows);
-      const BookedContact<Law> booked = {
-          c,    f, law.parts(c, begun, memory, f), weight, set.distance[i], arm, set.feature[i],
-          nodes};
-      sink.book->add(law, grid.wall, settings, s, booked, in, *sink.marks,
-                     sink.extra + out.n_contacts * n_stored(law));
+      const BookedLengths lengths = booked_lengths(set, i, arm, c);
+      const BookedContact<Law> booked = {c,
+                                         f,
+                                         law.parts(c, begun, memory, f),
+                                         weight,
+                                         lengths.distance,
+                                         lengths.arm,
+                                         set.feature[i],
+                                         nodes};
+      book_contact(*sink.book, law, grid.wall, settings, s, set, i, booked, in, *sink.marks,
+                   sink.extra + out.n_contacts * n_stored(law));
     }
     if constexpr (Law::kEnergy && Law::kHeat)
       if (law.has_heat() && settings.update)
@@ -317,13 +378,13 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       kept = {set.feature[i],           mesh,         normal, norm(tangential), 0,
               -normal * n - tangential, s.x - closest};
       if (settings.wear != WearModel::none)
-        kept.wear_power =
-            wear_power(settings.wear, pressing, norm(c.v_tangent), v_normal, norm(along));
+        kept.wear_power = wear_power(settings.wear, pressing, norm(c.v_tangent), away, norm(along));
     }
     out.n_contacts++;
 
-    out.force += (weight * f.normal) * n + tangential;
-    out.torque -= arm * cross(n, tangential);
+    const Vec3 force = (weight * f.normal) * n + tangential;
+    out.force += force;
+    add_torque(arm, n, force, tangential, out.torque);
     out.energy += weight * f.energy;
     if constexpr (Law::kContactTorque) out.torque += weight * f.contact_torque;
     if constexpr (Law::kHeat)

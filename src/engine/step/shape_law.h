@@ -41,7 +41,8 @@ struct ShapeWork {
   std::vector<NearList> near;                 // of each slot
   // kNoSphere less the index of the first grain whose nearest points were not found to rounding, or 0: an error.
   std::uint64_t unsure = 0;
-  // The largest overlap / GrainContact::limit as DeepestOverlap::ratio(), and the index of the grain + 1.
+  // The largest overlap over how deep a contact may be (ShapeAtMeshes::check_depths) as DeepestOverlap::ratio(), and the index of the
+  // grain + 1.
   std::uint64_t sharpest = 0;
   std::deque<LawBytes> laws;    // of spheres, for ShapeLaw: their addresses stay
 

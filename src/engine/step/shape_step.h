@@ -19,35 +19,6 @@
 
 namespace lsdcd {
 
-// Returns which contact of the last step contact i goes on with.
-template <class Law, class Springs>
-Transfer transfer_of(const Law &law, const GrainContactsView &set, int i,
-                     const SphereStateWith<Springs> &s)
-{
-  const OldGrainContacts<Springs> old = {s.springs, s.extra, n_stored(law), s.n_springs,
-                                         *set.at[i].metric};
-  return transfer_of(set, i, old);
-}
-
-// Returns the memory of contact i at the start of the step: that of the last step, turned with the normal, and about it
-// with a surface that turns.
-template <class Law, class Springs>
-auto memory_from_last_step(const Law &, const ForceSettings &settings, const GrainContactsView &set,
-                           int i, const SphereStateWith<Springs> &s, const Transfer &in)
-{
-  ContactMemory<Law::kExtra> memory = {};
-  if constexpr (Law::kHistory) {
-    if (in.from >= 0) {
-      const Vec3 &n = set.at[i].normal;
-      memory.shear = handed_on(s.springs[in.from].shear, in, s.springs, n);
-      if (settings.update && settings.surface_moves)
-        memory.shear = turn_about(n, settings.dt * dot(settings.surface.angular, n), memory.shear);
-    }
-    memory.put(0, set.at[i].arm);
-  }
-  return memory;
-}
-
 // Returns the radius by which a law takes the size of a contact from its overlap: that of the mean curvature. A flat side has
 // no contact radius above that of the sphere around the grain.
 inline Real contact_curvature_radius(const Superellipsoid &shape, const Vec3 &own_point,
@@ -66,89 +37,60 @@ Real radius_for(const Law &law, const Superellipsoid &shape, const Vec3 &own_poi
   return law.reads_radius ? contact_curvature_radius(shape, own_point, overlap) : radius;
 }
 
-// Evaluates the law for each contact of a grain that is no sphere, as add_contacts() does for spheres: with the velocity of
-// the grain's point less that of the wall at the foot, and the force at the grain's point.
-template <class Law, class Springs, class Sink>
-void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
-                  const SphereStateWith<Springs> &s, const GrainContactsView &set,
-                  const Real *weights, const Sink &sink, SphereResult &out)
+// What add_contacts() asks of a grain that is no sphere: velocity and force are at its point.
+template <class Law, class Springs>
+Transfer transfer_to(const GridView &grid, const Law &law, const GrainContactsView &set, int i,
+                     const SphereStateWith<Springs> &s)
 {
-  const Superellipsoid &shape = *set.shape;
-  for (int i = 0; i < set.n; i++) {
-    const GrainContact &at = set.at[i];
-    const Real weight = weights[i], ratio = at.overlap / shape.nearest;
-    if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
-    if (at.overlap >= shape.rho)
-      raise_to(&law.work->sharpest, DeepestOverlap::ratio(at.overlap / at.limit) | (set.grain + 1));
-    if (!(weight > 0)) continue;
-
-    const Vec3 &n = at.normal;
-    Vec3 v = s.v;
-    if (settings.pose.placed) {
-      const Vec3 turning = cross(settings.wall_angular, at.foot);
-      v -= settings.wall_velocity + turning - settings.back * cross(settings.wall_angular, turning);
-    }
-    const Vec3 of_centre = v;
-    v += cross(s.omega, at.arm);
-    Contact c;
-    c.normal = n;
-    c.overlap = at.overlap;
-    c.radius = radius_for(law, shape, at.metric->to_own(at.arm), at.overlap, s.radius);
-    c.mass = s.mass;
-    if (settings.gives_way) c.mass = 1 / (1 / s.mass + settings.mobility.along(at.foot, n));
-    c.v_normal = dot(v, n);
-    c.v_tangent = v - c.v_normal * n;
-    Vec3 surface = {0, 0, 0};
-    if (settings.surface_moves) {
-      surface = settings.surface.along(at.foot, n, settings.back);
-      c.v_tangent -= surface;
-    }
-    c.dt = settings.dt;
-    c.update = settings.update;
-    if constexpr (Law::kEnergy) c.omega = {0, 0, 0};    // nothing rolls or twists
-
-    Transfer in = {-1, 0};
-    if constexpr (Law::kHistory) in = transfer_of(law, set, i, s);
-    auto memory = memory_from_last_step(law, settings, set, i, s, in);
-    [[maybe_unused]] const auto begun = memory;
-    const auto f = law.evaluate(c, memory);
-    if constexpr (Law::kEnergy) {
-      if (!settings.update) memory = begun;
-      [[maybe_unused]] Real lost_before = 0;
-      if constexpr (Law::kRecords) lost_before = dissipated(sink.book->rows);
-      const BookedContact<Law> booked = {
-          c, f, law.parts(c, begun, memory, f), weight, c.radius, at.overlap, at.feature, {}};
-      add_grain(*sink.book, law, grid.wall, settings, s, booked, at, in, *sink.marks,
-                sink.extra + out.n_contacts * n_stored(law));
-      if constexpr (Law::kRecords)
-        sink.records.put(
-            {at.feature, settings.mesh, dissipated(sink.book->rows) - lost_before, 0, 0});
-    }
-    if constexpr (Law::kHistory) {
-      const int to = out.n_contacts;
-      sink.springs[to] = {memory.shear, n, at.feature, settings.mesh};
-      store_extra(law, memory, sink.extra + to * n_stored(law));
-    }
-    const Vec3 tangential = weight * f.tangential;
-    const Real normal = weight * f.normal, pressing = normal > 0 ? normal : Real(0);
-    const Vec3 force = normal * n + tangential;
-    StepContact &kept = sink.contacts[out.n_contacts];
-    kept = {at.feature, settings.mesh, normal, norm(tangential), 0, -force, s.x - at.foot};
-    if (settings.wear != WearModel::none) {
-      const Real away = dot(of_centre, n);
-      kept.wear_power = wear_power(settings.wear, pressing, norm(c.v_tangent), away,
-                                   norm(of_centre - away * n - surface));
-    }
-    out.n_contacts++;
-    out.force += force;
-    out.torque += cross(at.arm, force) + at.couple;
-    out.energy += weight * f.energy;
-    if (settings.with_point) {
-      const Real w = weight * std::fabs(f.normal);
-      out.weight += w;
-      out.weighted_point += w * at.foot;
-    }
-  }
+  const OldGrainContacts<Springs> old = {s.springs, s.extra, n_stored(law), *set.at[i].metric};
+  return transfer_of(grid.wall, set, i, old, s.n_springs);
+}
+template <class Springs>
+Real radius_of(const GrainContactsView &set, const SphereStateWith<Springs> &)
+{
+  return set.shape->nearest;
+}
+template <class Law, class Springs>
+Real radius_of(const Law &law, const GrainContactsView &set, int i,
+               const SphereStateWith<Springs> &s)
+{
+  const GrainContact &at = set.at[i];
+  return radius_for(law, *set.shape, at.metric->to_own(at.arm), at.overlap, s.radius);
+}
+struct GrainArm {
+  Vec3 arm, couple;    // see GrainContact
+};
+template <class Law, class Springs>
+GrainArm arm_of(const Law &, const GrainContactsView &set, int i, Real,
+                const SphereStateWith<Springs> &)
+{
+  return {set.at[i].arm, set.at[i].couple};
+}
+inline void add_spin(Real away, const Vec3 &along, const Vec3 &omega, const GrainArm &at,
+                     Contact &c)
+{
+  const Vec3 turning = cross(omega, at.arm);
+  const Real turning_away = dot(turning, c.normal);
+  c.v_normal = away + turning_away;
+  c.v_tangent = along + (turning - turning_away * c.normal);
+}
+inline void add_torque(const GrainArm &at, const Vec3 &, const Vec3 &force, const Vec3 &,
+                       Vec3 &torque)
+{
+  torque += cross(at.arm, force) + at.couple;
+}
+inline BookedLengths booked_lengths(const GrainContactsView &, int, const GrainArm &,
+                                    const Contact &c)
+{
+  return {c.radius, c.overlap};
+}
+template <class Law, class Springs>
+void book_contact(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wall,
+                  const ForceSettings &settings, const SphereStateWith<Springs> &s,
+                  const GrainContactsView &set, int i, const BookedContact<Law> &booked,
+                  const Transfer &in, EnergyMarks &marks, Real *to)
+{
+  add_grain(book, law, wall, settings, s, booked, set.at[i], in, marks, to);
 }
 
 // What a thread has for grains that are no spheres.
@@ -191,7 +133,7 @@ class ShapeAtMeshes {
       return;
     }
     if (n > 0) share();
-    apply_law<Law>(job_, sphere_, GrainContactsView{n, memory_.contacts.data(), &shape_, sphere_.i},
+    apply_law<Law>(job_, sphere_, GrainContactsView{n, memory_.contacts.data(), &shape_},
                    memory_.weight.data());
   }
 
@@ -275,7 +217,7 @@ class ShapeAtMeshes {
       memory_.sharing.push_back(
           {c.feature, -c.metric->to_own(c.normal), c.metric->to_own(c.arm), c.overlap});
     }
-    if (is_deep) set_limits();
+    if (is_deep) check_depths();
     if (n < 2 || settings(0).search.corner != Corner::blend) return;
     memory_.rule.begin(shape_, memory_.sharing);
     for (int m = 0, first = 0; m < sphere_.n_meshes(); first = ends_[m++]) add_passes(m, first);
@@ -337,32 +279,38 @@ class ShapeAtMeshes {
     return law.evaluate(c, memory).normal / at.overlap;
   }
 
-  // Says how deep contacts may be, where one is as deep as the least radius of curvature.
-  void set_limits()
+  // Notes how deep contacts are that are not less deep than the least radius of curvature, over how deep they may be.
+  void check_depths()
   {
-    const std::size_t n = memory_.contacts.size();
-    for (std::size_t i = 0; i < n; i++) {
-      GrainContact &c = memory_.contacts[i];
-      const SharingContact &at = memory_.sharing[i];
-      const auto limit_along = [&](const Vec3 &along) {
-        const Real size = norm(along);
-        if (size > kParallel)
-          c.limit = std::fmin(
-              c.limit, shadow_radius(shape_, at.normal, cross(at.normal, (1 / size) * along)));
-      };
-      if (feature_kind(c.feature) == FeatureKind::vertex)
-        c.limit = 1 / curvature_at(shape_, at.point).largest();
-      if (feature_kind(c.feature) == FeatureKind::edge) {
-        const TreeView &view = work_.trees[settings(mesh_of(static_cast<int>(i))).mesh]->view();
-        const int *ends = view.edges + 2 * feature_index(c.feature);
-        const Vec3 along = view.vertices[ends[1]] - view.vertices[ends[0]];
-        limit_along((1 / norm(along)) * c.metric->to_own(along));
-      }
-      for (std::size_t j = 0; j < n; j++) {
-        const Vec3 &other = memory_.sharing[j].normal;
-        if (dot(at.normal, other) > 0) limit_along(cross(at.normal, other));
-      }
+    for (std::size_t i = 0; i < memory_.contacts.size(); i++)
+      if (memory_.contacts[i].overlap >= shape_.rho)
+        raise_to(&work_.sharpest, DeepestOverlap::ratio(memory_.contacts[i].overlap / limit_of(i)) |
+                                      (sphere_.i + 1));
+  }
+  // Returns how deep a contact may be for a force that does not jump where it ends: the radius of curvature of the grain's shadow across
+  // the fold or edge; length.
+  Real limit_of(std::size_t i) const
+  {
+    const GrainContact &c = memory_.contacts[i];
+    const SharingContact &at = memory_.sharing[i];
+    Real limit = HUGE_VAL;
+    const auto limit_along = [&](const Vec3 &along) {
+      const Real size = norm(along);
+      if (size > kParallel)
+        limit = std::fmin(limit,
+                          shadow_radius(shape_, at.normal, cross(at.normal, (1 / size) * along)));
+    };
+    if (feature_kind(c.feature) == FeatureKind::vertex)
+      limit = 1 / curvature_at(shape_, at.point).largest();
+    if (feature_kind(c.feature) == FeatureKind::edge) {
+      const TreeView &view = work_.trees[settings(mesh_of(static_cast<int>(i))).mesh]->view();
+      const int *ends = view.edges + 2 * feature_index(c.feature);
+      const Vec3 along = view.vertices[ends[1]] - view.vertices[ends[0]];
+      limit_along((1 / norm(along)) * c.metric->to_own(along));
     }
+    for (const SharingContact &other : memory_.sharing)
+      if (dot(at.normal, other.normal) > 0) limit_along(cross(at.normal, other.normal));
+    return limit;
   }
   static constexpr Real kParallel = 1e-9;    // an angle
 
