@@ -235,14 +235,11 @@ LSDCD_FN Real radius_of(const Law &, const ContactsView &, int, const SphereStat
 {
   return s.radius;
 }
-template <class Law, class Springs>
-LSDCD_FN Real arm_of(const Law &law, const ContactsView &, int, Real overlap,
-                     const SphereStateWith<Springs> &s)
+template <class Law>
+LSDCD_FN Real arm_of(const Law &law, const ContactsView &, int, Real overlap, Real radius)
 {
-  Real arm = s.radius;
-  if constexpr (Law::kMidpoint)
-    if (law.is_at_midpoint()) arm -= overlap / 2;
-  return arm;
+  if constexpr (Law::kMidpoint) return law.is_at_midpoint() ? radius - overlap / 2 : radius;
+  return radius;
 }
 // Sets the velocities at a contact, of those of the centre away from the wall and along it.
 LSDCD_FN void add_spin(Real away, const Vec3 &along, const Vec3 &omega, Real arm, Contact &c)
@@ -314,7 +311,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     Vec3 along = v - away * n;
     if constexpr (Law::kPosed)
       if (settings.surface_moves) along -= settings.surface.along(closest, n, settings.back);
-    const auto arm = arm_of(law, set, i, overlap, s);    // of friction
+    const auto arm = arm_of(law, set, i, overlap, s.radius);    // of friction
     add_spin(away, along, s.omega, arm, c);
     c.dt = settings.dt;
     c.update = settings.update;

@@ -60,9 +60,8 @@ Real radius_of(const Law &law, const GrainContactsView &set, int i,
 struct GrainArm {
   Vec3 arm, couple;    // see GrainContact
 };
-template <class Law, class Springs>
-GrainArm arm_of(const Law &, const GrainContactsView &set, int i, Real,
-                const SphereStateWith<Springs> &)
+template <class Law>
+GrainArm arm_of(const Law &, const GrainContactsView &set, int i, Real, Real)
 {
   return {set.at[i].arm, set.at[i].couple};
 }
