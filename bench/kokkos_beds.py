@@ -22,7 +22,7 @@ PLANES = 40    # of spheres on a floor
 SPACING = 0.985    # of spheres of diameter 1 in the closed box: compressed by 1.5 %
 WALL_CELLS = 41    # along and across each of its six walls
 DRUM_AROUND, DRUM_RINGS = 360, 69    # segments of a drum, and rings of each lid; twice as many along its shell
-DRUM_PERIOD = 3000.0    # of a turn: its wall moves by 1/1000 of what its grains fall freely through a radius, at most
+DRUM_PERIOD = 3000.0    # time of a turn: at a radius of 250 the wall's acceleration is 1/1000 of gravity
 HOPPER_AROUND, HOPPER_RINGS = 180, 28    # segments of a hopper, and rings of each part
 
 
@@ -115,7 +115,7 @@ class Bed:
         self.triangles = len(triangles)
         write_stl(self.mesh, triangles, "a drum")
         self.turns = f" motion rotate 0 0 0 0 1 0 {DRUM_PERIOD}"
-        self.loose(1.0)
+        self.loose()
         self.box = f"{-radius - 1!r} {radius + 1!r} -1 {length + 1!r} {-radius - 1!r} {radius + 1!r}"
         self.region = (f"region shell cylinder y 0 0 {radius - 0.6!r} 0.6 {length - 0.6!r} units box\n"
                        "region lower block INF INF INF INF INF 0 units box\nregion bed intersect 2 shell lower")
@@ -132,16 +132,16 @@ class Bed:
         write_stl(self.mesh, wall, "a bin over a funnel")
         rim = ring(1.1 * outlet, -1.0, HOPPER_AROUND)
         write_stl(self.mesh.with_name("outlet.stl"), [((0.0, 0.0, -1.0), b, a) for a, b in zip(rim, rim[1:])], "its outlet, down")
-        self.loose(1.0)
+        self.loose()
         r, z, fall = self.radius + 1, self.top + 12, 10 + math.sqrt(2 * self.radius) * time + time**2 / 2
         self.box = f"{-r!r} {r!r} {-r!r} {r!r} {-fall!r} {z!r}"
         self.region = (f"region bin cylinder z 0 0 {self.radius - 0.6!r} {self.radius!r} {self.top!r} units box\n"
                        f"region funnel cone z 0 0 {outlet - 0.6!r} {self.radius - 0.6!r} 0 {self.radius!r} units box\n"
                        "region bed union 2 bin funnel")
 
-    def loose(self, gravity):
+    def loose(self):
         """Grains of two sizes that settle from a lattice and move."""
-        self.lattice, self.diameters, self.gravity = "sc 1.0 origin 0.5 0.5 0.5", "0.95+0.05*random(0,1,7)", gravity
+        self.lattice, self.diameters, self.gravity = "sc 1.0 origin 0.5 0.5 0.5", "0.95+0.05*random(0,1,7)", 1.0
         self.neighbours, self.boundary = "delay 0 every 1 check yes", "f f f"
 
     def wall(self, style="wall/lsdcd"):
