@@ -103,15 +103,23 @@ inline void bring_no_atoms(LAMMPS_NS::Fix &fix, LAMMPS_NS::ExecutionSpace space)
   fix.datamask_read = fix.datamask_modify = EMPTY_MASK;
 }
 
+// Runs work while LAMMPS takes the atoms on the host for the newest ones, as around what knows nothing of Kokkos.
+template <class Work>
+void with_atoms_of_host(LAMMPS_NS::LAMMPS *lmp, Work &&work)
+{
+  const int before = lmp->kokkos->auto_sync;
+  lmp->kokkos->auto_sync = 1;
+  work();
+  lmp->kokkos->auto_sync = before;
+}
+
 // Brings a device atoms as commands between runs left them on the host: set and velocity change them there without a word to Kokkos.
 // LAMMPS does so itself all through a setup until it calls setup() of fixes.
 inline void bring_after_commands(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::ExecutionSpace space,
                                  std::uint64_t mask)
 {
-  const int before = lmp->kokkos->auto_sync;
-  lmp->kokkos->auto_sync = 1;
-  static_cast<LAMMPS_NS::AtomKokkos *>(lmp->atom)->sync(space, mask);
-  lmp->kokkos->auto_sync = before;
+  auto &atoms = *static_cast<LAMMPS_NS::AtomKokkos *>(lmp->atom);
+  with_atoms_of_host(lmp, [&] { atoms.sync(space, mask); });
 }
 
 // Runs work as LAMMPS runs fixes without /kk: all atoms go to the host before, and count as changed there after.
@@ -120,10 +128,7 @@ void run_on_host(LAMMPS_NS::LAMMPS *lmp, Work &&work)
 {
   auto &atoms = *static_cast<LAMMPS_NS::AtomKokkos *>(lmp->atom);
   atoms.sync(LAMMPS_NS::Host, ALL_MASK);
-  const int before = lmp->kokkos->auto_sync;
-  lmp->kokkos->auto_sync = 1;
-  work();
-  lmp->kokkos->auto_sync = before;
+  with_atoms_of_host(lmp, work);
   atoms.modified(LAMMPS_NS::Host, ALL_MASK);
 }
 
