@@ -916,7 +916,7 @@ def test_included(folder):
 EXTRA = MATERIAL + ROLLS + """\
 fix m6 all property/global cohesionEnergyDensity peratomtypepair 1 {}
 fix m7 all property/global coefficientRollingViscousDamping peratomtypepair 1 0.3
-fix m8 all property/global coeffRollingStiffness peratomtypepair 1 2.5
+fix m8 all property/global rollingStiffness scalar 2.5
 fix m9 all property/global characteristicVelocity scalar 2
 create_atoms 1 single 0 0 0
 pair_style gran model {} tangential history {}
@@ -947,6 +947,13 @@ def test_rolling_and_cohesion(folder):
         fact(f"tangential {tail}", expected in out, out)
     said, _ = convert(folder, EXTRA.format(0, "hertz", "").replace("history \n", "no_history rolling_friction epsd2\n"))
     fact("epsd2 without its stiffness is left", "epsd2, whose stiffness is that of tangential history, with no_history" in said.stderr, said.stderr)
+    for rolling, spin, motion, noted in (("cdt", "", "rotate origin 0 0 0 axis 0 0 1 period 1", True), ("epsd", "", "linear 0 0 1", False),
+                                         ("cdt", "surface_ang_vel origin 0 0 0 axis 0 0 1 omega 5", "", True),
+                                         ("off", "", "rotate origin 0 0 0 axis 0 0 1 period 1", False)):
+        _, out = convert(folder, EXTRA.replace(MESH.format(""), MESH.format(spin)).format(0, "hertz", "") + WALL.replace(
+            "hertz tangential history", f"hertz tangential history rolling_friction {rolling}") + (MOVE.format(motion) if motion else ""))
+        fact(f"rolling {rolling} at a mesh with {spin}{motion}", ("NOTE in.there:15: rolling friction at cad, which turns: LIGGGHTS brakes the "
+             "spin of the grain" in out) == noted and "LEFT" not in out.split("\n", 1)[1], out)
     two = (TWO_TYPES + "fix r all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.2 0.2 0.3\ncreate_atoms 1 single 0 0 0\ncreate_atoms 2 single 1 0 0\n"
            "pair_style gran model hertz tangential history rolling_friction epsd2\npair_coeff * *\n")
     _, out = convert(folder, two)
@@ -1088,6 +1095,7 @@ fix m5 all property/global characteristicVelocity scalar 2
 fix m6 all property/global coefficientRollingFriction peratomtypepair 1 0.1
 fix m7 all property/global coefficientRollingViscousDamping peratomtypepair 1 0
 fix m8 all property/global cohesionEnergyDensity peratomtypepair 1 5e4
+fix m9 all property/global rollingStiffness scalar 2.25
 pair_style gran model MODEL
 pair_coeff * *
 timestep 1e-5
@@ -1221,7 +1229,7 @@ PHYSICS = {
               (1e-4 - 1e-9, 1e-4 + 1e-9), (2, 2), (0, 0), (0.4 - 1e-5, 0.4 + 1e-5)]),
     # Rolling friction at a wall. The lever of the friction, and how it begins to roll, change 2 %; the spring of epsd needs 40 of the steps to its limit.
     **{f"roll_{model}": (f"{HERTZ} rolling_friction {model}", ROLL, "${vx}", [(0.5 - (1 + off) * SLOWER, 0.5 - (1 - off) * SLOWER)])
-       for model, off in (("cdt", 0.04), ("epsd2", 0.04), ("epsd", 0.05))},
+       for model, off in (("cdt", 0.04), ("epsd2", 0.04), ("epsd", 0.05), ("epsd3", 0.05))},
     # Of two grains that roll on each other, for 10 steps in which they move apart by 0.2 % of their overlap: mu F R of the reduced radius.
     "roll_pair": (HERTZ + " rolling_friction cdt", TOUCHING + "set atom 1 omegax 0 omegay 10 omegaz 0\nset atom 2 omegax 0 omegay -10 omegaz 0\nvariable w equal omegay[1]\n"
                   "thermo_style custom step v_w\nrun 10\n", "${w}",

@@ -63,7 +63,7 @@ class Contact:
 # Properties of the rolling models, in the order of the words of LSDCD.
 ROLLING = {"cdt": ["coefficientRollingFriction"], "epsd2": ["coefficientRollingFriction"],
            "epsd": ["coefficientRollingFriction", "coefficientRollingViscousDamping"],
-           "epsd3": ["coefficientRollingFriction", "coefficientRollingViscousDamping", "coeffRollingStiffness"]}
+           "epsd3": ["coefficientRollingFriction", "coefficientRollingViscousDamping", "rollingStiffness"]}
 
 
 class Model:

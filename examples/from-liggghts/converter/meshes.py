@@ -41,6 +41,7 @@ class Mesh:
         self.wall, self.wall_lines, self.index, self.several, self.reference = None, [], None, False, None
         self.written, self.body = set(), ""    # mesh_stl, mesh_fields; words of 6dof
         self.excluded, self.data, self.said = None, None, ""    # a list of triangles to leave out, the bytes of the mesh without them, a note
+        self.spins = False    # by surface_ang_vel
         self.before, self.unsure = [], False    # variables that it needs; whether a jump may have changed its motions
         self.way, self.worn = [0.0, 0.0, 0.0], False    # how runs have moved it, None where that is no known way; whether they wore it
         self.first, self.wall_at = None, None    # ID of its wall, its place there, whether there are others; the line of its wall now
@@ -91,7 +92,13 @@ class Mesh:
         if surface:
             self.add_surface_vel(script, surface)
         if spin:
+            self.spins = True
             self.add_surface_ang_vel(script, spin)
+
+    def turns(self, script):
+        """Whether the mesh, or its surface, ever has an angular velocity."""
+        return (self.id in script.turning or self.spins or bool(self.body and "joint slider" not in self.body) or
+                bool(self.servo and self.servo.startswith("servo torque")))
 
     def leave_out(self, script):
         """Leaves out the triangles that a list names: the mesh becomes another file."""

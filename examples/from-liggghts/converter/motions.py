@@ -8,6 +8,9 @@ from .errors import Left
 from .geometry import cross, short, unit
 from .lines import commands_in
 
+# How the styles of move/mesh begin that turn a mesh.
+TURNS = ("rotate", "riggle", "vibrot")
+
 
 class Motions:
     """fix move/mesh, and fix_modify of meshes."""

@@ -15,7 +15,7 @@ from .geometry import short, unit
 from .insertion import DISTRIBUTIONS, Insertion
 from .lines import ENDERS, KINDS, MAKERS, commands_in, needed_by, nested, unquoted, words_of
 from .meshes import Mesh
-from .motions import Motions
+from .motions import Motions, TURNS
 from .program import Program
 from .properties import PROPERTY_KINDS, Properties
 from .same import BALANCE, COMMANDS, COMPUTES, FIXES, PLAIN_COMMANDS, Same
@@ -36,6 +36,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
         self.sizes = [None] * self.program.unread
         self.missing_data, self.data_boxes = [], {}    # files of read_data; edges of the box in them, by line
         self.meshes, self.mesh_of, self.walls, self.unchecked, self.used = {}, {}, {}, set(), set()    # by line; IDs
+        self.turning = set()    # IDs of meshes that turn
         self.dumps, self.dumped, self.lattice = [], {}, False
         self.files = {}    # bytes of files to write, by their paths
         self.gravity_names, self.gravities = set(), []    # the acceleration of each fix gravity, None where it is not known
@@ -176,6 +177,8 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
                         mesh.wall_lines.append(line)
             elif style == "move/mesh":
                 self.used.add(w[5])
+                if w[6].startswith(TURNS):
+                    self.turning.add(w[5])
         elif w[0] == "dump" and len(w) > 5 and w[3] in MESH_DUMPS and "ghost" not in w[6:]:
             self.dumps.append(line)
             self.dumped[line] = set()

@@ -79,6 +79,7 @@ class Walls:
         model.drop_zeros(contacts)
         self.note_friction(line, model, contacts, model.normal == "hertz")
         self.note_stored(line, wall)
+        self.note_rolling(line, model, meshes)
         self.check_bodies(line, model, meshes)
         # One fix, so that a grain where meshes meet is pushed once; each mesh has its law.
         laws = [self.law_of(line, model, mesh.type) for mesh in meshes]
@@ -149,6 +150,12 @@ class Walls:
             raise Left("shear of a mesh", "surface_vel")
         if wall.stored:
             self.note(line, "store_force: the keyword contacts has the forces")
+
+    def note_rolling(self, line, model, meshes):
+        turning = [mesh.id for mesh in meshes if mesh.turns(self)] if model.rolling else []
+        if turning:
+            self.note(line, f"rolling friction at {', '.join(turning)}, which turn{'s' * (len(turning) == 1)}: LIGGGHTS brakes the spin of the grain, "
+                      "here it is the spin against that of the mesh: doc/from-liggghts.md, Traps")
 
     def wear(self, line, meshes):
         worn = [m for m in meshes if m.wear]
