@@ -332,7 +332,7 @@ WRITTEN.update({
         GRAINS + "fix d all particledistribution/discrete/numberbased 3 2 p1 0.25 p2 0.75\n"
         "fix i all insert/rate/region seed 7 distributiontemplate d nparticles 90 massrate 0.1 insert_every 1000 region r\n",
         "diam poly 2 0.004 0.25 0.008 0.75 dens"),
-    "ke counts grains that come": (ONE + FILL + "particles_in_region 90 region r\n", "compute_modify  thermo_temp dynamic/dof yes\n"),
+    "ke counts grains that come": (ONE + FILL + "particles_in_region 90 region r\n", "compute_modify  thermo_temp extra/dof 0 dynamic/dof yes\n"),
     "degrees of freedom by the names that every LAMMPS knows": (
         "compute t all ke\ncompute_modify t dynamic yes extra 3\n", "compute_modify t dynamic/dof yes extra/dof 3\n"),
     "rows of contacts in a reduction": (
@@ -1145,6 +1145,9 @@ IN_0_1 = [(0.004, 0.096)] * 6
 PHYSICS = {
     # Nothing acts along the floor.
     **{f"slide_{model}": (model, slide(0.5) + "run 2000\n", "${vx}", [(0.5, 0.5)]) for model in ("hooke", "hertz")},
+    # The kinetic energy of a single grain, m v^2/2.
+    "energy": (HERTZ, "create_atoms 1 single 0 0 0.1 units box\nset group all diameter 0.02 density 2500\nvelocity all set 2 0 0 units box\nvariable e equal ke\n"
+               "thermo_style custom step ke\nrun 2\n", "${e}", [(2 * MASS - 1e-9, 2 * MASS + 1e-9)]),
     # A contact of the grains of the mesh's group only, and of all where the wall alone has a group.
     "groups": (HERTZ, "".join(f"create_atoms 1 single {x} 0 0.0105 units box\n" for x in (0, 0.1, 0.2)) + "set group all density 2500\n"
                "set group all diameter 0.02\ngroup a id 1\ngroup b id 2\nvelocity all set 0 0 -1 units box\n"

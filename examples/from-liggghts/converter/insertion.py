@@ -194,8 +194,7 @@ class Insertion:
         self.sources.append((bounds, self.ran, "once" if form == "pack" else "on"))
         self.feeds[w[1]] = (line, len(self.sources) - 1)
         self.densities.update({f"fix {w[1]} {k}": kind[0].split()[-1] for k, kind in enumerate(kinds)})
-        if not any("thermo_temp" in other.words for other in self.lines):
-            self.put("compute_modify  thermo_temp dynamic/dof yes")    # else ke is 0 while grains come
+        self.count_energy()
         self.put(text)
         if form == "pack" and self.is_dense(line, v, kinds, bounds):
             self.note(line, "LIGGGHTS gives up on grains without a place after maxattempt, here they come later: count the grains of both")
@@ -267,6 +266,11 @@ class Insertion:
             raise Left("insert/pack into a region that another insertion fills in the same step, which counts in LIGGGHTS",
                        "fix insert/lsdcd with the number less these grains")
         return any(ran != self.ran or not self.apart(other, bounds) for other, ran, _ in self.sources)    # after a run they are anywhere
+
+    def count_energy(self):
+        """Makes ke right of a single grain, which has no degree of freedom by default, and while grains come."""
+        if not any("thermo_temp" in other.words for other in self.lines):
+            self.put("compute_modify  thermo_temp extra/dof 0 dynamic/dof yes")
 
     def make(self, bounds):
         """Grains that are made at once. A pack that stands before them and inserts after them counts them."""

@@ -93,7 +93,7 @@ class Properties:
     def read_data(self, line):
         name = expand(line.words[1], line.scope)
         path = self.folder / name
-        self.data_boxes[line] = {}
+        self.data_boxes[line], self.data_sizes[line] = {}, []
         if not path.exists():
             self.missing_data.append(name)
             self.all_types = True
@@ -106,7 +106,8 @@ class Properties:
             w = row.split()
             if len(w) > 6:
                 self.grain_types.add(int(w[1]))
-                self.sizes.append((float(w[2]) / 2, float(w[3])))
+                self.data_sizes[line].append((float(w[2]) / 2, float(w[3])))
+        self.sizes += self.data_sizes[line]
 
     def size(self, line):
         """Radius and mass of a grain."""

@@ -210,6 +210,9 @@ class Same:
             bounds = [(self.known(x, line),) * 2 for x in w[3:6]] if w[2] == "single" and self.units == "box" else \
                 (self.region(w[3]) or [None])[-1] if w[2] == "region" else None
             self.make(bounds)
+        single = w[0] == "create_atoms" and w[2] == "single" and not line.loops and sum(x.words[:1] == w[:1] for x in self.lines) == 1
+        if single or (w[0] == "read_data" and len(self.data_sizes[line]) == 1):
+            self.count_energy()
 
     def follow_box(self, line):
         """Keeps regions, edges of the box, and whether these move."""

@@ -34,7 +34,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
         # What is known of the whole script.
         self.properties, self.grain_types, self.all_types = {}, set(), self.program.unread
         self.sizes = [None] * self.program.unread
-        self.missing_data, self.data_boxes = [], {}    # files of read_data; edges of the box in them, by line
+        self.missing_data, self.data_boxes, self.data_sizes = [], {}, {}    # files of read_data; edges of the box and sizes of grains in them, by line
         self.meshes, self.mesh_of, self.walls, self.unchecked, self.used = {}, {}, {}, set(), set()    # by line; IDs
         self.turning = set()    # IDs of meshes that turn
         self.dumps, self.dumped, self.lattice = [], {}, False
