@@ -1148,6 +1148,10 @@ PHYSICS = {
     # The kinetic energy of a single grain, m v^2/2.
     "energy": (HERTZ, "create_atoms 1 single 0 0 0.1 units box\nset group all diameter 0.02 density 2500\nvelocity all set 2 0 0 units box\nvariable e equal ke\n"
                "thermo_style custom step ke\nrun 2\n", "${e}", [(2 * MASS - 1e-9, 2 * MASS + 1e-9)]),
+    # That of two grains in a body, and of a third one.
+    "energy_of_a_body": (HERTZ, TOUCHING + "create_atoms 1 single 0.1 0.1 0.1 units box\nset group all diameter 0.02 density 2500\n"
+                         "velocity all set 2 0 0 units box\ngroup a id 1 2\nfix r a rigid single\nunfix i\ngroup b id 3\nfix i b nve/sphere\n"
+                         "variable e equal ke\nthermo_style custom step ke\nrun 2\n", "${e}", [(6 * MASS - 1e-9, 6 * MASS + 1e-9)]),
     # A contact of the grains of the mesh's group only, and of all where the wall alone has a group.
     "groups": (HERTZ, "".join(f"create_atoms 1 single {x} 0 0.0105 units box\n" for x in (0, 0.1, 0.2)) + "set group all density 2500\n"
                "set group all diameter 0.02\ngroup a id 1\ngroup b id 2\nvelocity all set 0 0 -1 units box\n"

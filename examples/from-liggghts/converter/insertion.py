@@ -267,10 +267,11 @@ class Insertion:
                        "fix insert/lsdcd with the number less these grains")
         return any(ran != self.ran or not self.apart(other, bounds) for other, ran, _ in self.sources)    # after a run they are anywhere
 
-    def count_energy(self):
-        """Makes ke right of a single grain, which has no degree of freedom by default, and while grains come."""
+    def count_energy(self, more=0):
+        """Makes ke right of a single grain, which has no degree of freedom by default, and while grains come. It does not depend on how
+        many there are, while there are some; `more` makes up for those that a fix takes away."""
         if not any("thermo_temp" in other.words for other in self.lines):
-            self.put("compute_modify  thermo_temp extra/dof 0 dynamic/dof yes")
+            self.put(f"compute_modify  thermo_temp extra/dof {-more} dynamic/dof yes")
 
     def make(self, bounds):
         """Grains that are made at once. A pack that stands before them and inserts after them counts them."""

@@ -528,6 +528,8 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
             if self.grows(w):
                 self.pass_on(line.but(" ".join(w + ["mass yes"])))    # LIGGGHTS keeps the density
                 return
+            if style == "rigid":
+                self.count_energy(10**9)    # which takes six of each grain, more than it has
             if style == "dt/reset":
                 self.timestep = None
             if style == "deform":
