@@ -14,6 +14,7 @@
 #include "lammps/host_fixes.h"
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
+#include "lammps/other_fixes.h"
 #include "lammps/restart_data.h"
 
 #include "atom.h"
@@ -221,6 +222,8 @@ int FixInsertLsdcd::setmask()
 
 void FixInsertLsdcd::init()
 {
+  const std::string late = late_pair_springs(*this, *modify);
+  if (!late.empty()) fatal(late);
   std::vector<FixWallLsdcd *> found;
   std::vector<std::string> missing = settings.walls;
   const std::vector<Fix *> fixes = lsdcd::host_fixes(*modify);

@@ -10,6 +10,7 @@
 #include "lammps/host_fixes.h"
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
+#include "lammps/other_fixes.h"
 
 #include "atom.h"
 #if __has_include("atom_masks.h")
@@ -133,6 +134,8 @@ void FixMassflowLsdcd::init()
 {
   watch.init(*update);
   open_rows();
+  const std::string late = settings.deletes ? late_pair_springs(*this, *modify) : "";
+  if (!late.empty()) fatal(late);
   for (const Fix *fix : lsdcd::host_fixes(*modify))
     if (settings.deletes && fix->rigid_flag)
       warn("delete yes removes atoms without telling fix " + std::string(fix->id) +

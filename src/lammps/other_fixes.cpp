@@ -12,6 +12,7 @@
 #include "atom.h"
 #include "modify.h"
 
+#include <cstring>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -89,6 +90,19 @@ std::string LAMMPS_NS::doubled_mesh(const FixWallLsdcd &wall, Modify &modify, co
                ", whose group shares atoms with this one's: they feel every contact twice; leave "
                "one out, or move it";
     }
+  }
+  return "";
+}
+
+std::string LAMMPS_NS::late_pair_springs(const Fix &fix, Modify &modify)
+{
+  bool is_behind = false;
+  for (const Fix *other : lsdcd::host_fixes(modify)) {
+    is_behind = is_behind || other == &fix;
+    if (is_behind && std::strncmp(other->style, "NEIGH_HISTORY", 13) == 0)
+      return "this fix creates or deletes atoms before the pair style gives springs to theirs, and "
+             "they would go to others: "
+             "write pair_style before this fix";
   }
   return "";
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Things that a wall must not share with another fix of the script.
+// Things that a wall must not share with another fix of the script, and the order of fixes.
 #ifndef LMP_OTHER_FIXES_H
 #define LMP_OTHER_FIXES_H
 
@@ -23,6 +23,10 @@ void check_files_apart(const class FixWallLsdcd &, class Modify &, lsdcd::Host &
 // A text where an earlier fix has a mesh of this one, at the same place and for some of its atoms;
 // empty: none has. The later fix warns. Collective.
 std::string doubled_mesh(const class FixWallLsdcd &, class Modify &, const class Atom &, MPI_Comm);
+
+// Returns a text where a pair style of LAMMPS puts the springs of pairs to their atoms after this fix has created or deleted
+// some, so that they would go to other atoms; empty: none does.
+std::string late_pair_springs(const class Fix &, class Modify &);
 
 }    // namespace LAMMPS_NS
 

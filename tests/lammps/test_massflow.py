@@ -302,6 +302,20 @@ run             600
     fact("springs were at work", turning > 0.05, str(turning))
 
 
+def test_order_of_pairs(folder):
+    """Springs of LAMMPS's pairs would go to other atoms, where the fix that creates or deletes some stands before the pair style."""
+    out, into = "massflow/lsdcd mesh plate.stl delete yes", "insert/lsdcd region in numberrate 100 diam one 0.3 dens 1"
+    for fix in (out, into):
+        for pairs in ("gran/hooke/history 1e4 NULL 5 NULL 0.5 1", "granular"):
+            law = "hooke 1e4 5 tangential linear_history 1e4 1 0.5 damping mass_velocity" if pairs == "granular" else ""
+            lmp.refused(f"{fix} before {pairs}", GRAINS + f"region in block -1 1 -1 1 1 2\nfix early all {fix}\npair_style {pairs}\npair_coeff * * {law}\n"
+                        "create_atoms 1 single 0 0 0\nset group all diameter 0.3 density 1\nfix i all nve/sphere\nrun 0\n", folder,
+                        "Fix early", "write pair_style before this fix")
+    for fix, pairs in ((out, "gran/hooke 1e4 NULL 5 NULL 0.5 1"), (out.replace(" delete yes", ""), "gran/hooke/history 1e4 NULL 5 NULL 0.5 1")):
+        lmp.run_well(GRAINS + f"fix early all {fix}\npair_style {pairs}\npair_coeff * *\ncreate_atoms 1 single 0 0 0\n"
+                     "set group all diameter 0.3 density 1\nfix i all nve/sphere\nrun 0\n", folder)
+
+
 def test_deposit(folder):
     """Spheres come in above and are deleted below: none is lost, none is counted twice."""
     text = GRAINS + lmp.pairs("zero 1.0") + """\
