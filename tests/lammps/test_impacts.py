@@ -196,6 +196,76 @@ def test_ellipsoid(folder):
     at_most("by triangle as of the mesh", abs(math.fsum(found) - lost) / lost, 1e-12)
 
 
+# ---- nodes that move ---------------------------------------------------------------------
+
+CUTS = 4    # of a membrane of 2 x 2, along each side
+PLACES = [(-1 + 2 * i / CUTS, -1 + 2 * j / CUTS) for i in range(CUTS + 1) for j in range(CUTS + 1)]
+MEMBRANE = lmp.head("-3 3 -3 3 -3 3", types=2) + """\
+create_atoms    1 single -0.3 -0.4 -0.21 units box
+create_atoms    1 single 0.45 0.1 -0.22 units box
+create_atoms    1 single -0.1 0.55 -0.3 units box
+""" + "".join(f"create_atoms    2 single {x} {y} 0 units box\n" for x, y in PLACES) + f"""\
+set             type 1 diameter 0.4 mass 0.8
+set             type 2 diameter 0.01 mass {10 / len(PLACES)}
+group           nodes type 2
+group           grains type 1
+velocity        nodes set 0 0 -1
+velocity        grains set 3 0.8 0
+""" + lmp.pairs("zero 1.0") + """\
+timestep        1e-3
+fix             m nodes {nodes}
+fix             s grains nve/sphere
+fix             wall grains wall/lsdcd granular hooke 1e3 5 damping mass_velocity tangential linear_history 300 1 0.3 rolling sds 5 0.01 0.05 &
+                mesh membrane.stl {moves} impacts 0.02 {words}
+thermo_style    custom step c_thermo_temp c_thermo_temp {columns}
+thermo_modify   format float %.17g norm no
+thermo          1000000
+{run}
+"""
+BOOKED = f"energy {FILES}"
+
+
+def on_membrane(folder, run, ranks=1, moves="nodes nodes", nodes="nve", words=BOOKED, script=MEMBRANE):
+    """The last row, fields and spectrum after 200 steps."""
+    stl.write(folder / "membrane.stl", stl.sheet(CUTS, lambda i, j: (*PLACES[i * (CUTS + 1) + j], 0)))
+    columns = COLUMNS if "energy" in words else [COUNT] * len(COLUMNS)
+    out = lmp.run_well(script.format(moves=moves, nodes=nodes, words=words, run=run, columns=f"{COUNT} {ENERGY} {' '.join(columns)}"), folder, ranks)
+    return row_of(out, ("impacts", "energy", *NAMES)), fields(folder, 200), spectrum(folder, 200)
+
+
+def test_membrane(folder):
+    """Three spheres that hit a membrane of free nodes and slide on it: the first contact of each is an impact of m v^2/2 with the speed of both along the
+    normal; triangles have what contacts dissipate, and impacts, in all as the mesh; 4 processes and a restart in the middle change nothing, nor does it
+    change impacts that no energy is booked."""
+    whole = row, found, rows = on_membrane(folder, "run 100\nrun 100")
+    fact("all are hit", row["impacts"] >= 3 and row["slider"] > 1e-3, row)
+    at_most("the first ones have the speed that was set", abs(max(found["impact_speed"]) - 1), 1e-12)
+    lost, total = sum(row[c] for c in CAUSES), sums(found)
+    fact("several triangles", sum(e > 1e-4 for e in found["dissipated_energy"]) >= 4, found["dissipated_energy"])
+    at_most("dissipated by triangle", abs(total["dissipated_energy"] - lost) / lost, 1e-12)
+    at_most("impacts by triangle", abs(total["impacts"] - row["impacts"]), 1e-12)
+    at_most("their energy by triangle", abs(total["impact_energy"] - row["energy"]) / row["energy"], 1e-12)
+    at_most("energy by bin", abs(math.fsum(r[3] for r in rows) - row["energy"]) / row["energy"], 1e-12)
+    same("4 processes", on_membrane(folder, "run 100\nrun 100", 4), whole)
+    alone = on_membrane(folder, "run 100\nrun 100", words=FILES)
+    fact("without books the same impacts", alone[0]["impacts"] == row["impacts"] and alone[2] == rows)
+    lmp.run_well(MEMBRANE.format(moves="nodes nodes", nodes="nve", words=BOOKED, run="run 100\nwrite_restart half.restart", columns=COUNT), folder)
+    lines = MEMBRANE.splitlines(keepends=True)
+    first = next(k for k, line in enumerate(lines) if line.startswith("pair_style"))
+    again = "atom_modify map array\nread_restart half.restart\ncomm_modify vel yes\n" + "".join(lines[first:])
+    for ranks in (1, 4):
+        same(f"restarted on {ranks}", on_membrane(folder, "run 100", ranks, script=again), whole)
+
+
+def test_membrane_as_one_mesh(folder):
+    """Nodes that all move alike are a mesh with a motion: each triangle has the same."""
+    a, b = (on_membrane(folder, "run 200", nodes="move linear 0.3 0 -1 units box", moves=moves) for moves in ("nodes nodes", "motion linear 0.3 0 -1"))
+    fact("it is hit", b[0]["impacts"] >= 3 and b[0]["work"] > 0.1, b[0])
+    fact("as many impacts", a[0]["impacts"] == b[0]["impacts"])
+    for field, size in (("dissipated_energy", b[0]["work"]), ("impacts", 1), ("impact_energy", b[0]["energy"]), ("impact_speed", 1)):
+        at_most(f"{field} of each triangle", max(abs(x - y) for x, y in zip(a[1][field], b[1][field])) / size, 1e-11)
+
+
 # ---- many spheres, processes and restart -------------------------------------------------
 
 WORDS = f"energy impacts 0.02 {FILES}"

@@ -96,8 +96,8 @@ LSDCD_FN int n_stored(const Law &law)
 // The kernels that a law has, by their effects. plain: {none}. moving_or_both: {moving}, {moving + contacts}.
 // plain_or_both: {none}, {moving + contacts}. Where a wall has contacts alone it takes {moving + contacts}. Beside each
 // of these is {moving + contacts + nodes}, so that walls whose nodes do not move have no instruction for them.
-// energy: {moving + contacts + energy}, and with nodes; energy_records: the first with records; impacts: {moving + contacts +
-// records}.
+// energy: {moving + contacts + energy}; energy_records: the same with records; impacts: {moving + contacts + records}; each also with
+// nodes.
 enum class WallKernels { plain, moving_or_both, plain_or_both, energy, energy_records, impacts };
 
 // Calls make(law) with the law that has the effects.
@@ -109,9 +109,11 @@ auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
     return effects.nodes ? make(OnWall<Law, true, true, true, true>{law})
                          : make(OnWall<Law, true, true, false, true>{law});
   if constexpr (kernels == WallKernels::energy_records)
-    return make(OnWall<Law, true, true, false, true, true>{law});
+    return effects.nodes ? make(OnWall<Law, true, true, true, true, true>{law})
+                         : make(OnWall<Law, true, true, false, true, true>{law});
   if constexpr (kernels == WallKernels::impacts)
-    return make(OnWall<Law, true, true, false, false, true>{law});
+    return effects.nodes ? make(OnWall<Law, true, true, true, false, true>{law})
+                         : make(OnWall<Law, true, true, false, false, true>{law});
   if constexpr (kernels == WallKernels::moving_or_both)
     if (!effects.contacts) return make(OnWall<Law, true, false>{law});
   if constexpr (kernels == WallKernels::plain_or_both)

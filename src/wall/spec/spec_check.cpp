@@ -102,12 +102,6 @@ const MeshRule kMeshRules[] = {
      "mesh a wear factor by which it does not wear"},
     {kEnergy,
      [](const WallSpec &w, const MeshSpec &m) {
-       return w.energy && m.has_nodes && w.has_energy_places();
-     },
-     "what contacts dissipate has no triangles where nodes of a mesh move: leave mesh_fields out, "
-     "or put the mesh into a wall of its own"},
-    {kEnergy,
-     [](const WallSpec &w, const MeshSpec &m) {
        return w.energy && m.body.present && m.body.coat.present;
      },
      "contacts of a coat are not booked: leave energy or the coat out"},
@@ -118,10 +112,6 @@ const MeshRule kMeshRules[] = {
      "no impacts are recorded, of which it would be: give the wall the least speed of an impact, "
      "or leave "
      "it out"},
-    {kImpacts,
-     [](const WallSpec &w, const MeshSpec &m) { return w.impact_speed > 0 && m.has_nodes; },
-     "impacts on nodes that move are not recorded: leave it out, or put the mesh into a wall of "
-     "its own"},
     {kBody, [](const WallSpec &w, const MeshSpec &m) { return m.body.present && w.recedes(m); },
      "wear moves this mesh, and the mass and centre of a body are those of its shape: leave one of "
      "them out, or give the mesh a wear factor by which it does not wear"},
