@@ -62,6 +62,7 @@ struct StepSettings {
   std::int64_t number = 0;       // of the step, for StepDiagnostics
   Real dt = 0;                   // time
   bool update_history = true;    // false in setup: springs act but do not move
+  bool looks = false;            // nothing of a contact is stored, not even what a setup stores
   bool synchronous =
       false;    // velocities are of the time of the places, as in setup; else of half a step before
   bool per_sphere = false;      // bring StepResults::touching()

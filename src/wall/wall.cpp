@@ -467,7 +467,7 @@ void Wall::finish(const HostSpheres &spheres)
   submit(spheres);    // nothing, if the host has submitted
   if (!bodies_.empty() && coats_.any()) {
     times_.begin();
-    coats_.step(input_.step);
+    coats_.step(input_.step, receded_);
     times_.end(TimeReport::forces);
   }
   guard(spheres, [&] { collect(spheres.n); });
@@ -511,19 +511,24 @@ void Wall::note_step(const HostSpheres &spheres)
       loads_.add(m->index, left && !is_in_place ? left->contacts() : none, step.dt,
                  left ? m->records() : MeshFeaturesView());
     }
-  if (spec_.energy) energy_.add(left, step);
-  if (left && step.kind == Step::step)
-    for (const MeshPart *m : with_energy_records_) {
-      if (engine_->energies())
-        records_.add(m->index, m->feature_counts());
-      else
-        records_.add(m->index, left->energy_records(), m->records());
-    }
+  if (spec_.energy) energy_.add(left, coats_.energy(), step);
+  if (step.kind == Step::step)
+    for (const MeshPart *m : with_energy_records_) note_energy_records(*m, left);
   for (const MeshPart *m : changing_)
     if (left) m->surface->end(*left, step);
   if (step.kind == Step::setup) log_new_springs(step);
   if (input_.new_spheres) check_new_spheres(spheres);    // throws on one process alone
   if (step.kind == Step::setup) times_.begin_run();      // as the host's loop time
+}
+
+// Adds what becomes of energy at the triangles of a mesh. Contacts of coats are the same on all processes.
+void Wall::note_energy_records(const MeshPart &m, StepResults *left)
+{
+  if (left && engine_->energies()) records_.add(m.index, m.feature_counts());
+  if (left && !engine_->energies()) records_.add(m.index, left->energy_records(), m.records());
+  const std::vector<EnergyRecord> &of_coats = coats_.energy().records;
+  if (of_coats.empty() || !host_.is_first()) return;
+  records_.add(m.index, {of_coats.data(), static_cast<int>(of_coats.size())}, m.records());
 }
 
 // Where a wall comes, or comes again, among spheres that rest on it.

@@ -201,7 +201,7 @@ class EngineOn : public WallEngine {
   // Returns the contacts of the last step, which has swapped the springs or not.
   const StepContact *step_contacts() const
   {
-    return springs_.contacts(step_.update_history || law_.traits.sets_up);
+    return springs_.contacts(step_.update_history || (law_.traits.sets_up && !step_.looks));
   }
   // Return those on a mesh, and its records of energy without the sums of a mesh.
   NodeContacts contacts_on(int mesh) const
@@ -318,7 +318,7 @@ class EngineOn : public WallEngine {
     else
       run_law(job, n, law_of(0, 0));
     // Where a setup stores what contacts keep, it leaves springs as they are.
-    if (step_.update_history || law_.traits.sets_up) springs_.swap();
+    if (job.settings.stores) springs_.swap();
     if (step_.totals && !B::kOnCpu) results.start_sums(b_);
   }
 

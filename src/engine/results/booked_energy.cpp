@@ -21,10 +21,8 @@ void BookedEnergy::add_step(EnergyRows now, bool is_setup, Real duration)
 
 void BookedEnergy::add(const BookedEnergy &other)
 {
-  for (int row = 0; row < kEnergyRows; row++) {
-    rows.of[row] += other.rows.of[row];
-    step.of[row] += other.step.of[row];
-  }
+  rows.add(other.rows);
+  step.add(other.step);
   dt = std::max(dt, other.dt);
 }
 

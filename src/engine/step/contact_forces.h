@@ -127,7 +127,7 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.dt = step.dt;
   s.update = step.update_history;
   const ContactLaw &law = engine.laws.laws.front();
-  s.stores = s.update || law.keeps_forces || law.keeps_touch;
+  s.stores = s.update || ((law.keeps_forces || law.keeps_touch) && !step.looks);
   s.search = {engine.corner, engine.side};
   s.with_point = step.per_sphere;
   s.wall_temperature = step.mesh_temperature ? step.mesh_temperature[mesh] : step.wall_temperature;
@@ -152,7 +152,7 @@ inline bool are_alike(const StepSettings &a, const StepSettings &b)
     return !s.mesh_temperature && !s.surface && !s.mobility && !s.receded;
   };
   return is_of_wall(a) && is_of_wall(b) && a.dt == b.dt && a.update_history == b.update_history &&
-         a.synchronous == b.synchronous && a.per_sphere == b.per_sphere &&
+         a.looks == b.looks && a.synchronous == b.synchronous && a.per_sphere == b.per_sphere &&
          a.wall_temperature == b.wall_temperature;
 }
 

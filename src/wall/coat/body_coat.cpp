@@ -37,7 +37,7 @@ std::vector<ContactLaw> laws_of(const WallSpec &wall, const std::vector<int> &me
   for (const int mesh : meshes) {
     ContactLaw &law = laws.emplace_back(law_of_all_types(wall, mesh));
     law.heat = HeatModel::none;
-    law.for_shapes = law.keeps_forces = law.keeps_at_nodes = law.keeps_touch = false;
+    law.for_shapes = law.keeps_touch = false;
   }
   return laws;
 }
@@ -145,6 +145,8 @@ BodyCoat::BodyCoat(Host &host, const WallSpec &wall, int mesh, const MeshGrid &g
     if (!engine.surface.moves()) engine.surface = m.surface;
   engine.moves = engine.contacts = engine.bodies = true;
   engine.wear = WearModel::none;
+  engine.energy_places &= wall.energy;
+  engine.impact_speed = 0;
   engine.device = Device::cpu;
   engine_ = make_cpu_engine(engine);
   history_.set_engine(*engine_);
@@ -253,6 +255,13 @@ StepSettings BodyCoat::settings(const std::deque<MeshPart> &meshes, const Step &
   return s;
 }
 
+void BodyCoat::add_receded(const Receded &receded, StepSettings &step)
+{
+  receded_.clear();
+  for (const int k : others_) receded_.push_back(receded[static_cast<std::size_t>(k)]);
+  step.receded = receded_.data();
+}
+
 // Puts all meshes where they are when this share of their way since the step before is done.
 void BodyCoat::put(const std::deque<MeshPart> &meshes, Real share, Real back)
 {
@@ -280,6 +289,7 @@ void BodyCoat::choose(const std::deque<MeshPart> &meshes)
 void BodyCoat::look(StepSettings want)
 {
   want.update_history = false;
+  want.looks = true;
   engine_->step(spheres(), want);
   engine_->read_diagnostics();
 }
@@ -302,18 +312,22 @@ void BodyCoat::begin(const std::deque<MeshPart> &meshes, const Step &step, CoatP
 }
 
 void BodyCoat::finish(const std::deque<MeshPart> &meshes, const Step &step,
-                      const CoatPushes &pushes, std::vector<CoatLoad> &loads)
+                      const CoatPushes &pushes, const Receded &receded,
+                      std::vector<CoatLoad> &loads, CoatEnergy &energy)
 {
   take_masses(meshes, pushes);
   for (std::size_t i = 0; i < points_.size(); i++) force_on_[i] = torque_on_[i] = {0, 0, 0};
   try {
-    engine_->step(spheres(), settings(meshes, step));
+    StepSettings want = settings(meshes, step);
+    if (!receded.empty()) add_receded(receded, want);
+    engine_->step(spheres(), want);
     engine_->read_diagnostics();
   } catch (const std::exception &e) {
     throw InputError(named(std::string("in its coat, ") + e.what()));
   }
   add_loads(meshes, loads);
   add_stiffness(meshes, loads);
+  if (wall_.energy) add_energy(energy);
   check_depth();
 }
 
@@ -435,6 +449,24 @@ void BodyCoat::add_loads(const std::deque<MeshPart> &meshes, std::vector<CoatLoa
     if (!meshes[others_[k]].body) continue;
     own.bodies |= std::uint32_t(1) << others_[k];
     other.bodies |= std::uint32_t(1) << mesh_;
+  }
+}
+
+// A contact counts with the mesh that is touched. The work of the mesh is that of both: what the touched mesh has not done on the
+// contacts, the body has lost.
+void BodyCoat::add_energy(CoatEnergy &energy) const
+{
+  StepResults &left = engine_->results();
+  for (std::size_t k = 0; k < others_.size(); k++) {
+    const EnergyRows rows = left.energy(static_cast<int>(k));
+    energy.rows[mesh_][EnergyRow::drive] += rows[EnergyRow::work] - rows[EnergyRow::drive];
+    energy.rows[others_[k]].add(rows);
+  }
+  const EnergyRecords records = left.energy_records();
+  for (int k = 0; k < records.n; k++) {
+    EnergyRecord record = records.at[k];
+    record.mesh = static_cast<std::uint32_t>(others_[record.mesh]);
+    energy.records.push_back(record);
   }
 }
 

@@ -42,9 +42,11 @@ class BodyCoat {
 
   // Finds the contacts and adds them to the pushes. Throws where a point has gone through a mesh since the step before.
   void begin(const std::deque<MeshPart> &meshes, const Step &step, CoatPushes &pushes);
-  // Computes the contacts, whose damping hangs on all pushes, and adds them to the loads of each mesh.
+  // Computes the contacts, whose damping hangs on all pushes, and adds them to the loads of each mesh, and what they do with energy where
+  // that is booked. `receded`: see StepSettings; empty: no mesh has moved so.
+  using Receded = std::vector<std::vector<Vec3>>;
   void finish(const std::deque<MeshPart> &meshes, const Step &step, const CoatPushes &pushes,
-              std::vector<CoatLoad> &loads);
+              const Receded &receded, std::vector<CoatLoad> &loads, CoatEnergy &energy);
 
   // Returns what its contacts keep, with the names that `name` gives to features. restore() takes it again, before a
   // step. The first process warns where it is of another law or another coat.
@@ -67,10 +69,12 @@ class BodyCoat {
   FeatureName of_others(const FeatureName &name) const;
   SurfaceMotion surface_against(const MeshPart &own, const MeshPart &other) const;
   StepSettings settings(const std::deque<MeshPart> &meshes, const Step &step);
+  void add_receded(const Receded &receded, StepSettings &step);
   void find_contacts(const std::deque<MeshPart> &meshes, CoatPushes &pushes);
   void take_masses(const std::deque<MeshPart> &meshes, const CoatPushes &pushes);
   void take_restored(const std::deque<MeshPart> &meshes);
   void add_loads(const std::deque<MeshPart> &meshes, std::vector<CoatLoad> &loads) const;
+  void add_energy(CoatEnergy &energy) const;
   void add_stiffness(const std::deque<MeshPart> &meshes, std::vector<CoatLoad> &loads) const;
   Real deepest(int &other) const;
   void check_depth();
@@ -100,6 +104,7 @@ class BodyCoat {
   // These are of each mesh of the engine, in a step.
   std::vector<SurfaceMotion> surfaces_;
   std::vector<Mobility> mobilities_;    // of this body, in their frames
+  Receded receded_;                     // read only where a mesh has moved so
 };
 
 }    // namespace lsdcd

@@ -48,12 +48,13 @@ void BodyCoats::set_grid(const MeshPart &m)
   for (BodyCoat &coat : coats_) coat.set_grid(m);
 }
 
-void BodyCoats::step(const Step &step)
+void BodyCoats::step(const Step &step, const BodyCoat::Receded &receded)
 {
   loads_.assign(meshes_.size(), CoatLoad());
+  if (wall_.energy) energy_ = {std::vector<EnergyRows>(meshes_.size()), {}};
   CoatPushes pushes(meshes_.size());
   for (BodyCoat &coat : coats_) coat.begin(meshes_, step, pushes);
-  for (BodyCoat &coat : coats_) coat.finish(meshes_, step, pushes, loads_);
+  for (BodyCoat &coat : coats_) coat.finish(meshes_, step, pushes, receded, loads_, energy_);
 }
 
 const CoatLoad &BodyCoats::load(int mesh) const

@@ -34,13 +34,15 @@ class BodyCoats {
   // Takes the grid of a mesh from now on.
   void set_grid(const MeshPart &m);
 
-  // Makes a step, in which all meshes are where they are now.
-  void step(const Step &step);
+  // Makes a step, in which all meshes are where they are now. `receded`: as of BodyCoat.
+  void step(const Step &step, const BodyCoat::Receded &receded);
 
   // Returns the loads on each mesh in the last step, the same on all processes, or null where there are no coats.
   const std::vector<CoatLoad> *loads() const { return any() ? &loads_ : nullptr; }
   // Returns the load on a mesh, which is 0 where there are no coats.
   const CoatLoad &load(int mesh) const;
+  // Returns what their contacts did with energy in the last step, the same on all processes; nothing where none is booked.
+  const CoatEnergy &energy() const { return energy_; }
   // Returns the largest rates of the bodies that a coat of this mesh touched, or whose coats touched it.
   ModeRates fastest_touched(int mesh,
                             const std::function<ModeRates(const MeshPart &)> &rates) const;
@@ -60,6 +62,7 @@ class BodyCoats {
   std::deque<MeshPart> &meshes_;
   std::deque<BodyCoat> coats_;
   std::vector<CoatLoad> loads_;    // of each mesh
+  CoatEnergy energy_;
 };
 
 }    // namespace lsdcd

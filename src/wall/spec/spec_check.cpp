@@ -100,11 +100,6 @@ const MeshRule kMeshRules[] = {
     {kNodes, [](const WallSpec &w, const MeshSpec &m) { return m.has_nodes && w.recedes(m); },
      "wear moves this mesh, and its nodes are moved by others: leave one of them out, or give the "
      "mesh a wear factor by which it does not wear"},
-    {kEnergy,
-     [](const WallSpec &w, const MeshSpec &m) {
-       return w.energy && m.body.present && m.body.coat.present;
-     },
-     "contacts of a coat are not booked: leave energy or the coat out"},
     {kSpectrum,
      [](const WallSpec &w, const MeshSpec &m) {
        return m.spectrum.every > 0 && !(w.impact_speed > 0);

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The loads of the coats of bodies on a mesh.
+// What the coats of bodies do to meshes in a step.
 #pragma once
 
+#include "engine/results/step_results.h"
 #include "rigid/step_limit.h"
 
 #include <cstddef>
@@ -24,6 +25,12 @@ struct CoatLoad {
   ContactSum stiffness, damping;
   ModeRates most;
   std::uint32_t bodies = 0;    // that it touches: a bit for each mesh
+};
+
+// What the contacts of all coats do with energy in a step.
+struct CoatEnergy {
+  std::vector<EnergyRows> rows;         // of each mesh
+  std::vector<EnergyRecord> records;    // where triangles have them
 };
 
 // What the contacts of all coats would do to each mesh if each pushed with a force of 1, by the mesh that it is with.

@@ -12,13 +12,15 @@ EnergyBooks::EnergyBooks(Host &host, const WallSpec &settings) :
 {
 }
 
-void EnergyBooks::add(StepResults *left, const Step &step)
+void EnergyBooks::add(StepResults *left, const CoatEnergy &coats, const Step &step)
 {
   if (here_.empty() || step.kind == Step::snapshot) return;
   is_summed_ = false;
-  for (std::size_t k = 0; k < here_.size(); k++)
-    here_[k].add_step(left ? left->energy(static_cast<int>(k)) : EnergyRows(),
-                      step.kind == Step::setup, step.dt);
+  for (std::size_t k = 0; k < here_.size(); k++) {
+    EnergyRows rows = left ? left->energy(static_cast<int>(k)) : EnergyRows();
+    if (!coats.rows.empty() && host_.is_first()) rows.add(coats.rows[k]);
+    here_[k].add_step(rows, step.kind == Step::setup, step.dt);
+  }
 }
 
 void EnergyBooks::sum()

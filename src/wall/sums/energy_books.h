@@ -8,6 +8,7 @@
 #include "host/host.h"
 #include "motion/step_clock.h"
 #include "wall/spec/wall_spec.h"
+#include "wall/sums/coat_load.h"
 
 #include <vector>
 
@@ -19,8 +20,8 @@ class EnergyBooks {
   // The host must outlive it.
   EnergyBooks(Host &host, const WallSpec &settings);
 
-  // Adds a step; `left`: what it left on this process, null: there are no spheres.
-  void add(StepResults *left, const Step &step);
+  // Adds a step; `left`: what it left on this process, null: there are no spheres; `coats`: the same on all processes.
+  void add(StepResults *left, const CoatEnergy &coats, const Step &step);
 
   // Return the sums over all processes, of one mesh and of all. Collective.
   BookedEnergy mesh(int k);
