@@ -47,6 +47,18 @@ T number(const InputFile &file, const std::vector<std::string_view> &words, std:
   return value;
 }
 
+// Returns the column of this name, x, Y or "z" for 'x', 'y' or 'z'; -1: none has it.
+inline std::ptrdiff_t column_of(const std::vector<std::string_view> &names, char name)
+{
+  for (std::size_t k = 0; k < names.size(); k++) {
+    std::string_view w = names[k];
+    if (w.size() > 2 && w.front() == '"' && w.back() == '"') w = w.substr(1, w.size() - 2);
+    if (w.size() == 1 && (w[0] == name || w[0] == name - 'a' + 'A'))
+      return static_cast<std::ptrdiff_t>(k);
+  }
+  return -1;
+}
+
 class FieldLines {
  public:
   explicit FieldLines(InputFile file) : file_(std::move(file)) {}
@@ -55,12 +67,16 @@ class FieldLines {
   const std::vector<std::string_view> &fields() const { return fields_; }
   // Is this the first line, without a number in it?
   bool are_names() const { return are_names_; }
+  // Returns the names of a comment before the first line of numbers, as numpy.savetxt writes them: one for each column, with x, y and z;
+  // without such a comment none.
+  const std::vector<std::string_view> &names_of_comment() const { return of_comment_; }
 
   // The next line that is neither empty nor a comment (#); false: there is none.
   bool next()
   {
     for (std::string_view line; file_.line(line);) {
       line = without_blanks(line);
+      if (first_ && !line.empty() && line[0] == '#') comment_ = line.substr(1);
       if (line.empty() || line[0] == '#') continue;
       // 0,1;0,2 would be read as four numbers.
       if (line.find(',') != line.npos && line.find(';') != line.npos)
@@ -70,6 +86,7 @@ class FieldLines {
       double ignored = 0;
       are_names_ = first_ && std::none_of(fields_.begin(), fields_.end(),
                                           [&](auto word) { return read_number(word, ignored); });
+      if (first_ && !are_names_) take_comment();
       first_ = false;
       if (are_names_) {
         named_ = fields_.size();
@@ -89,8 +106,17 @@ class FieldLines {
   }
 
  private:
+  void take_comment()
+  {
+    split_fields(without_blanks(comment_), of_comment_);
+    bool has_all = of_comment_.size() == fields_.size();
+    for (const char axis : {'x', 'y', 'z'}) has_all = has_all && column_of(of_comment_, axis) >= 0;
+    if (!has_all) of_comment_.clear();
+  }
+
   InputFile file_;
-  std::vector<std::string_view> fields_;
+  std::vector<std::string_view> fields_, of_comment_;
+  std::string comment_;    // the last one before the first line
   bool first_ = true, are_names_ = false;
   std::size_t named_ = 0;    // 0: there is no line of names
   long named_at_ = 0;

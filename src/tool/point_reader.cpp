@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace lsdcd {
 
@@ -25,9 +26,9 @@ class LinesReader : public PointReader {
   {
     block.clear();
     while (block.size() < most && lines_.next()) {
-      if (lines_.are_names())
-        take_names();
-      else
+      if (std::exchange(is_first_, false))
+        take_names(lines_.are_names() ? lines_.fields() : lines_.names_of_comment());
+      if (!lines_.are_names())
         for (const std::size_t c : column_)
           block.xyz.push_back(number<double>(lines_.file(), lines_.fields(), c));
     }
@@ -35,22 +36,18 @@ class LinesReader : public PointReader {
   double share_read() const override { return lines_.file().share_read(); }
 
  private:
-  void take_names()
+  void take_names(const Words &names)
   {
-    for (int k = 0; k < 3; k++) {
-      const auto is_it = [&](std::string_view w) {
-        if (w.size() > 2 && w.front() == '"' && w.back() == '"') w = w.substr(1, w.size() - 2);
-        return w.size() == 1 && (w[0] == "xyz"[k] || w[0] == "XYZ"[k]);
-      };
-      const Words &names = lines_.fields();
-      const auto found = std::find_if(names.begin(), names.end(), is_it);
-      if (found == names.end())
+    for (int k = 0; k < 3 && !names.empty(); k++) {
+      const std::ptrdiff_t found = column_of(names, "xyz"[k]);
+      if (found < 0)
         lines_.fail(std::string("names columns, but none ") + "xyz"[k] + "; name them x, y and z");
-      column_[k] = found - names.begin();
+      column_[k] = static_cast<std::size_t>(found);
     }
   }
 
   FieldLines lines_;
+  bool is_first_ = true;
   std::array<std::size_t, 3> column_ = {0, 1, 2};
 };
 

@@ -5,6 +5,8 @@
 
 #include "bodies/read_pose.h"
 
+#include <utility>
+
 namespace lsdcd {
 
 BodyPose pose_of_numbers(const std::vector<double> &n)
@@ -18,9 +20,25 @@ BodyPose pose_of_numbers(const std::vector<double> &n)
   return pose_of_quaternion({n[0], n[1], n[2]}, n.size() == 7 ? n.data() + 3 : kAsItIs);
 }
 
+// A quaternion with w last, as many programs have it, is another turn.
+void PoseReader::check_names(const std::vector<std::string_view> &names) const
+{
+  for (int k = 0; k < 3; k++)
+    if (const std::ptrdiff_t at = column_of(names, "xyz"[k]); at >= 0 && at != k)
+      lines_.fail(std::string("follows names with ") + "xyz"[k] + " in column " +
+                  std::to_string(at + 1) + "; a pose begins with x y z");
+  for (std::size_t k = 0; k < names.size() && names.size() == 7; k++)
+    if (const char end = names[k].empty() ? ' ' : names[k].back();
+        (end == 'w' || end == 'W') && k != 3)
+      lines_.fail("follows names with '" + std::string(names[k]) + "' in column " +
+                  std::to_string(k + 1) + "; a pose is x y z qw qx qy qz");
+}
+
 bool PoseReader::read(BodyPose &pose)
 {
   while (lines_.next()) {
+    if (std::exchange(is_first_, false))
+      check_names(lines_.are_names() ? lines_.fields() : lines_.names_of_comment());
     if (lines_.are_names()) continue;
     numbers_.clear();
     for (std::size_t k = 0; k < lines_.fields().size(); k++)

@@ -18,7 +18,7 @@ namespace lsdcd {
 // each with a component of the shift. Throws InputError.
 BodyPose pose_of_numbers(const std::vector<double> &numbers);
 
-// A pose a line. A first line without a number is left out.
+// A pose a line. A first line without a number, or a comment before the first one, may name the columns, in this order.
 class PoseReader {
  public:
   explicit PoseReader(const std::string &path) : lines_(InputFile(path)) {}
@@ -26,7 +26,10 @@ class PoseReader {
   double share_read() const { return lines_.file().share_read(); }
 
  private:
+  void check_names(const std::vector<std::string_view> &names) const;
+
   FieldLines lines_;
+  bool is_first_ = true;
   std::vector<double> numbers_;
 };
 

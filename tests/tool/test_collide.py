@@ -133,6 +133,8 @@ def test_refused(folder):
                        ("", ("no pose",)), ("# none\n", ("no pose",)), ("0 0 nan\n", ("line 1", "not finite")),
                        ("0 0 0\n0 0 1e20\n", ("pose 1", "rounding errors")),
                        ("0,,0,0\n", ("line 1", "nothing in column 2")), ("0,1;0,2;0,3\n", ("line 1", "decimal commas")),
+                       ("z y x\n0 0 0\n", ("line 1", "with x in column 3")), ("# id x y z\n1 0 0 0\n", ("line 2", "with x in column 2")),
+                       ("x y z qx qy qz qw\n0 0 0 0 0 0 1\n", ("line 1", "'qw' in column 7", "x y z qw qx qy qz")),
                        ("x y z\n0 0 0 1 0 0 0\n", ("line 2", "has 7 columns", "line 1 names 3"))):
         bad.write_text(text)
         refused(folder, [*words, "--poses", "bad.txt", "-o", "left.csv"], *says)
