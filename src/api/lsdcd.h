@@ -713,12 +713,11 @@ typedef struct lsdcd_wall_spec {
   /* Steps of each mean of force and torque in lsdcd_wall_totals, as a solver of a fluid samples them; 0: there are none */
   int average_every;
   int each_contact; /* 1: lsdcd_wall_get_contacts() will be called */
-  int energy;       /* 1: what contacts dissipate is booked, by cause; not with coats */
+  int energy;       /* 1: what contacts dissipate is booked, by cause */
   /* The share of the heat of friction that goes into the spheres, 0 to 1, as `heat` of lsdcd_spheres; with `energy` and the
    * sub-model heat */
   double friction_heat;
-  /* Impacts that are faster are recorded, length/time, with the speed along the normal; 0: none are. Not with shapes and
-   * nodes_by_caller */
+  /* Impacts that are faster are recorded, length/time, with the speed along the normal; 0: none are. Not with shapes */
   double impact_speed;
   int shapes; /* 1: grains may be no spheres: steps read half_axes to inertia of lsdcd_spheres. On a CPU */
 } lsdcd_wall_spec;
