@@ -21,6 +21,8 @@ def options(doc, folder):
     p.add_argument("--lmp", default=os.environ.get("LSDCD_LMP", ROOT / "build/bin/lmp-lsdcd"))
     p.add_argument("--work", type=Path, default=ROOT / "build/examples" / folder.name,
                    help="folder for the runs")
+    p.add_argument("--flags", default="", metavar="WORDS", help="for LAMMPS, as '-k on g 1 -sf kk -pk kokkos newton off neigh half'")
+    p.add_argument("--at-once", type=int, default=os.cpu_count(), metavar="N", help="runs side by side: 1 on a GPU (default: cores)")
     return p
 
 
@@ -41,7 +43,7 @@ def make_meshes(script, work, *more):
 
 def run_script(a, script, **variables):
     """Numbers by name, of the line `NAME key value key value ...` that in.NAME prints at its end."""
-    command = [Path(a.lmp).resolve(), "-in", script, "-log", "none"]
+    command = [Path(a.lmp).resolve(), *a.flags.split(), "-in", script, "-log", "none"]
     for name, value in variables.items():
         command += ["-var", name, str(value)]
     with environment() as env:
@@ -56,8 +58,8 @@ def run_script(a, script, **variables):
 
 
 def run_scripts(a, script, cases):
-    """The same for each of `cases`, dicts of LAMMPS variables; as many at once as there are cores."""
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+    """The same for each of `cases`, dicts of LAMMPS variables; `a.at_once` of them side by side."""
+    with concurrent.futures.ThreadPoolExecutor(a.at_once) as pool:
         return list(pool.map(lambda variables: run_script(a, script, **variables), cases))
 
 
