@@ -117,23 +117,11 @@ GrainDirection old_direction(const OldGrainContacts<Springs> &old, int k)
   return old.metric.direction(old[k].normal, old.arm(k));
 }
 
-// What transfer_of() asks beside: a contact that has moved need not be next to where it was, as under a flat side it may jump over
-// many triangles in one step. So of several springs that were left it takes over the most alike one.
 template <class Springs>
 Real likeness_to_old(const GrainContactsView &set, int i, const OldGrainContacts<Springs> &old,
                      int k, Real)
 {
   return dot(old_direction(old, k), set.at[i].direction);
-}
-template <class Springs>
-bool may_have_moved(const MeshFeaturesView &, const GrainContactsView &, int,
-                    const OldGrainContacts<Springs> &, int, Real of_normals)
-{
-  return of_normals > kMoved;
-}
-inline Real least_likeness_of_moved(const GrainContactsView &)
-{
-  return -1;
 }
 
 }    // namespace lsdcd

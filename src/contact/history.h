@@ -107,27 +107,17 @@ struct Transfer {
   Real part;    // 0 to 1
 };
 
-// How much contact i of a sphere is like old spring k, of which the normals have this cosine; may it have moved from there; and how
-// alike it is at least then.
+// How much contact i of a sphere is like old spring k, of which the normals have this cosine.
 template <class Springs>
 LSDCD_FN Real likeness_to_old(const ContactsView &, int, const Springs &, int, Real of_normals)
 {
   return of_normals;
 }
-template <class Springs>
-LSDCD_FN bool may_have_moved(const MeshFeaturesView &wall, const ContactsView &set, int i,
-                             const Springs &old, int k, Real)
-{
-  return are_adjacent(wall, old[k].feature, set.feature[i]);
-}
-LSDCD_FN Real least_likeness_of_moved(const ContactsView &)
-{
-  return kMoved;
-}
 
 // 1. The spring of the same feature, unless the normal has turned round.
-// 2. Else one whose contact was left this step, next to this one and nearly
-//    aligned: the contact moved across a seam, the spring goes with it, whole.
+// 2. Else one whose contact was left this step, nearly aligned and, of a sphere, next to this one:
+//    the contact moved across a seam, the spring goes with it, whole. A contact with arms may jump over
+//    many triangles in one step, as under a flat side: of several it takes over the most alike one.
 // 3. Else the most alike spring times its likeness, of spheres max(0, n.n): a contact born beside
 //    others takes over as much of their force as it will carry in their stead.
 // Springs of other meshes hand over by 3 alone, as their features are not this wall's.
@@ -136,7 +126,7 @@ LSDCD_FN Transfer transfer_of(const MeshFeaturesView &wall, const Set &set, int 
                               const Springs &old, int n_old)
 {
   int best = -1, moved = -1;
-  Real best_cos = 0, moved_cos = least_likeness_of_moved(set);
+  Real best_cos = 0, moved_cos = Set::kHasArms ? -1 : kMoved;    // a sphere's c is of_normals
   for (int k = 0; k < n_old; k++) {
     const Real of_normals = dot(old[k].normal, set.normal[i]);
     const bool own = is_own(old, k);
@@ -146,7 +136,9 @@ LSDCD_FN Transfer transfer_of(const MeshFeaturesView &wall, const Set &set, int 
       best_cos = c;
       best = k;
     }
-    if (own && c > moved_cos && may_have_moved(wall, set, i, old, k, of_normals) &&
+    if (own && c > moved_cos &&
+        (Set::kHasArms ? of_normals > kMoved
+                       : are_adjacent(wall, old[k].feature, set.feature[i])) &&
         is_left(set, i, old, k)) {
       moved_cos = c;
       moved = k;

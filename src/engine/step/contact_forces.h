@@ -235,17 +235,17 @@ LSDCD_FN Real radius_of(const Law &, const ContactsView &, int, const SphereStat
 {
   return s.radius;
 }
-template <class Law>
-LSDCD_FN Real arm_of(const Law &law, const ContactsView &, int, Real overlap, Real radius)
+// Sets the velocities at a contact, of those of the centre away from the wall and along it. Returns the arm of friction.
+template <class Law, class Springs>
+LSDCD_FN Real add_spin(const Law &law, const ContactsView &, int, const SphereStateWith<Springs> &s,
+                       Real away, const Vec3 &along, Contact &c)
 {
-  if constexpr (Law::kMidpoint) return law.is_at_midpoint() ? radius - overlap / 2 : radius;
-  return radius;
-}
-// Sets the velocities at a contact, of those of the centre away from the wall and along it.
-LSDCD_FN void add_spin(Real away, const Vec3 &along, const Vec3 &omega, Real arm, Contact &c)
-{
+  Real arm = s.radius;
+  if constexpr (Law::kMidpoint)
+    if (law.is_at_midpoint()) arm = s.radius - c.overlap / 2;
   c.v_normal = away;
-  c.v_tangent = along - arm * cross(omega, c.normal);
+  c.v_tangent = along - arm * cross(s.omega, c.normal);
+  return arm;
 }
 LSDCD_FN void add_torque(Real arm, const Vec3 &n, const Vec3 &, const Vec3 &tangential,
                          Vec3 &torque)
@@ -311,8 +311,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     Vec3 along = v - away * n;
     if constexpr (Law::kPosed)
       if (settings.surface_moves) along -= settings.surface.along(closest, n, settings.back);
-    const auto arm = arm_of(law, set, i, overlap, s.radius);    // of friction
-    add_spin(away, along, s.omega, arm, c);
+    const auto &arm = add_spin(law, set, i, s, away, along, c);    // of friction
     c.dt = settings.dt;
     c.update = settings.update;
     if constexpr (Set::kHasArms) {

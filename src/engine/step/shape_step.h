@@ -57,28 +57,24 @@ Real radius_of(const Law &law, const GrainContactsView &set, int i,
   const GrainContact &at = set.at[i];
   return radius_for(law, *set.shape, at.metric->to_own(at.arm), at.overlap, s.radius);
 }
-struct GrainArm {
-  Vec3 arm, couple;    // see GrainContact
-};
-template <class Law>
-GrainArm arm_of(const Law &, const GrainContactsView &set, int i, Real, Real)
+template <class Law, class Springs>
+const GrainContact &add_spin(const Law &, const GrainContactsView &set, int i,
+                             const SphereStateWith<Springs> &s, Real away, const Vec3 &along,
+                             Contact &c)
 {
-  return {set.at[i].arm, set.at[i].couple};
-}
-inline void add_spin(Real away, const Vec3 &along, const Vec3 &omega, const GrainArm &at,
-                     Contact &c)
-{
-  const Vec3 turning = cross(omega, at.arm);
+  const GrainContact &at = set.at[i];
+  const Vec3 turning = cross(s.omega, at.arm);
   const Real turning_away = dot(turning, c.normal);
   c.v_normal = away + turning_away;
   c.v_tangent = along + (turning - turning_away * c.normal);
+  return at;
 }
-inline void add_torque(const GrainArm &at, const Vec3 &, const Vec3 &force, const Vec3 &,
+inline void add_torque(const GrainContact &at, const Vec3 &, const Vec3 &force, const Vec3 &,
                        Vec3 &torque)
 {
   torque += cross(at.arm, force) + at.couple;
 }
-inline BookedLengths booked_lengths(const GrainContactsView &, int, const GrainArm &,
+inline BookedLengths booked_lengths(const GrainContactsView &, int, const GrainContact &,
                                     const Contact &c)
 {
   return {c.radius, c.overlap};
