@@ -27,12 +27,12 @@ class CandidateSelector {
   void choose(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin, Real pull_off,
               StepCounts *counts, int *n_springs)
   {
-    const bool by_features = mesh.grid.view.list_kind.is_complete();
+    const Real past = excess_margin(mesh.grid.view, margin);
     candidates_.reserve(spheres.n);
-    if (excess_margin(mesh.grid.view, margin) > 0)
-      select<true>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);
+    if (past > 0)
+      select<true>(b, mesh, spheres, margin, past, pull_off, counts, n_springs);
     else
-      select<false>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);
+      select<false>(b, mesh, spheres, margin, past, pull_off, counts, n_springs);
   }
 
   std::size_t bytes() const { return candidates_.size() * sizeof(int) + selection_.bytes(); }
@@ -41,17 +41,15 @@ class CandidateSelector {
   using Array = typename B::template Array<int>;
 
   template <bool kPast>
-  void select(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin, Real pull_off,
-              bool by_features, StepCounts *counts, int *n_springs)
+  void select(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin, Real past,
+              Real pull_off, StepCounts *counts, int *n_springs)
   {
     const GridView &grid = mesh.grid.view;
-    const Real past = excess_margin(grid, margin);
-    CandidateTest<kPast> choice = {grid,    mesh.grid.table, BrickFilter<Real>(grid),
-                                   spheres, mesh.pose,       margin,
-                                   past,    pull_off,        by_features,
-                                   counts,  n_springs};
-    choice.fixed_margin = choice.filter.margin(past * grid.inv_length / kBrickSide);
-    selection_.run(b, spheres.n, choice, candidates_.data(), &counts->n_candidates);
+    CandidateTest<kPast> test = {
+        grid, mesh.grid.table, BrickFilter<Real>(grid),      spheres, mesh.pose, margin,
+        past, pull_off,        grid.list_kind.is_complete(), counts,  n_springs};
+    test.fixed_margin = test.filter.margin(past * grid.inv_length / kBrickSide);
+    selection_.run(b, spheres.n, test, candidates_.data(), &counts->n_candidates);
   }
 
   Array candidates_;

@@ -135,10 +135,10 @@ struct CandidateTest {
   // On a CPU: what refine() of a large wall reads first.
   LSDCD_FN void prefetch(const Vec3 &x) const { prefetch_search(grid, pose, x); }
 
-  LSDCD_FN bool has_notes() const { return n_springs; }
-  LSDCD_FN void note(std::size_t i, bool is_candidate) const
+  // Notes that sphere i is no candidate.
+  LSDCD_FN void note_out(std::size_t i) const
   {
-    if (!is_candidate) n_springs[i] = 0;
+    if (n_springs) n_springs[i] = 0;
   }
 };
 

@@ -39,8 +39,10 @@ class Selection<B, true> {
         const auto item = work.read(i);
         work.check(i, item);
         const bool passes = work.coarse_test(item, x) && work.is_near(x);
-        if (work.has_notes()) work.note(i, passes);
-        if (passes) to[lo + count++] = static_cast<int>(i);
+        if (passes)
+          to[lo + count++] = static_cast<int>(i);
+        else
+          work.note_out(i);
       }
       found[b] = work.has_refine() ? refine(work, to + lo, count) : count;
     }
@@ -65,8 +67,8 @@ class Selection<B, true> {
       const int i = spheres[k];
       if (work.refine(Warp<1>(), true, i))
         spheres[n_passed++] = i;
-      else if (work.has_notes())
-        work.note(i, false);
+      else
+        work.note_out(i);
     }
     return n_passed;
   }

@@ -25,7 +25,7 @@ struct FlagByCells {
     work.check(i, item);
     const Vec3 x = work.centres()[i];
     const bool passes = work.coarse_test(item, x) && work.is_near(x);
-    if (work.has_notes()) work.note(i, passes);
+    if (!passes) work.note_out(i);
     flags[i] = passes;
   }
 };
@@ -43,7 +43,7 @@ struct FlagByFeatures {
     const int i = left[k];
     const bool passes = work.refine(warp, mine, i);
     if (!mine) return;
-    if (!passes && work.has_notes()) work.note(i, false);
+    if (!passes) work.note_out(i);
     flags[k] = passes;
   }
 };
