@@ -340,12 +340,12 @@ void Wall::look_at_spheres(const HostSpheres &spheres)
   Real most[3] = {engine_->largest_radius(s), overlaps_.worst(), 0};
   most[2] = spheres.shapes ? largest_within(spheres) : most[0];
   host_.max(most, 3);
-  overlaps_.check_sunk(most[1], timestep_.worst_ratio(), on_cpu(spheres));
+  const SpheresOnCpu there = on_cpu(spheres);
+  overlaps_.check_sunk(most[1], timestep_.worst_ratio(), there);
   overlaps_.check_sharp();
   largest_within_ = most[2];
-  if (most[0] == 0 && !points_warned_) points_warned_ = warn_of_points(host_, on_cpu(spheres));
-  if ((most[0] > 0 || coats_.any()) &&
-      grids_.fit_spheres(most[0], on_cpu(spheres), input_.step.number))
+  if (most[0] == 0 && !points_warned_) points_warned_ = warn_of_points(host_, there);
+  if ((most[0] > 0 || coats_.any()) && grids_.fit_spheres(most[0], there, input_.step.number))
     engine_->expire_choice();
 }
 

@@ -78,6 +78,7 @@ class EngineOn<NodesAlone<Base>> {
   struct Springs {
     std::vector<TurningMesh> turned;
     void grow(int) {}
+    const StepContact *contacts() const { return nullptr; }
     void turn(int, std::uint32_t, const TurningMesh &turning) { turned.push_back(turning); }
   };
   struct BroadPhase {
@@ -99,7 +100,6 @@ class EngineOn<NodesAlone<Base>> {
   {
     run();
   }
-  const StepContact *step_contacts() const { return nullptr; }
 
   EngineSettings settings_;
   StepSettings step_;

@@ -300,9 +300,10 @@ class MovingNodes : public NodeEngine {
 
   void see_forces() override
   {
-    forces_.see(b(),
-                e_->results_.node_contacts(e_->step_contacts(), mesh_, records(), velocity_.data()),
-                at_.size());
+    forces_.see(
+        b(),
+        e_->results_.node_contacts(e_->springs_.contacts(), mesh_, records(), velocity_.data()),
+        at_.size());
   }
   NodeForceRange force_range() override { return forces_.range(); }
   void add_forces(const NodeForceRange *of_all) override { forces_.add(b(), of_all); }

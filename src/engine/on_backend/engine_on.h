@@ -33,11 +33,12 @@ class EngineOn : public WallEngine {
 
  public:
   EngineOn(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
-      settings_(settings), law_(law), b_(std::move(backend)), broad_phase_(settings),
-      mirror_(settings.arrays, law.traits.heat), counts_(1),
+      settings_(settings), law_(law), b_(std::move(backend)), broad_phase_(settings), counts_(1),
       springs_(b_, law.traits, counts_.data()), works_of_meshes_(settings.meshes),
       receded_(settings.meshes), overflow_(kOverflowScratches)
   {
+    if (settings_.arrays != HostArrays::in_place)
+      mirror_ = std::make_unique<SphereMirror<B>>(settings_.arrays, law.traits.heat);
     clear_diagnostics(StepCounts());
     unlock_scratches();
     if (broad_phase_.uses_slots()) put_laws();
@@ -63,7 +64,7 @@ class EngineOn : public WallEngine {
 
   Real largest_radius(const Spheres &host) override
   {
-    const Spheres spheres = mirror_.bring_radii(b_, host);
+    const Spheres spheres = mirror_ ? mirror_->bring_radii(b_, host) : host;
     return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
       return !spheres.mask || (spheres.mask[i] & spheres.group_bit) ? spheres.radius[i] : 0;
     });
@@ -71,7 +72,7 @@ class EngineOn : public WallEngine {
 
   Real farthest_past(const Spheres &host, const PeriodicFaces &faces) override
   {
-    const Spheres spheres = mirror_.bring_places(b_, host);
+    const Spheres spheres = with_places(host);
     return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
       const bool is_in_group = !spheres.mask || (spheres.mask[i] & spheres.group_bit);
       return is_in_group ? faces.past(spheres.x[i]) : 0;
@@ -81,27 +82,28 @@ class EngineOn : public WallEngine {
   void choose(const Spheres &host, Real margin, bool watch = false) override
   {
     where_step_runs([&] {
-      const Spheres spheres = mirror_.bring_for_choice(b_, host);
+      const Spheres spheres = mirror_ ? mirror_->bring_for_choice(b_, host) : host;
       results_.detach_from_candidates(b_);
       springs_.grow(spheres.n);
       make_room(spheres, broad_phase_.choose(b_, spheres, margin, counts_, springs_.count()));
-      mirror_.make_room(b_, broad_phase_, spheres.n);
-      forget_far_meshes();
+      if (mirror_) mirror_->make_room(b_, broad_phase_, spheres.n);
+      // A spring on a mesh of which its sphere is no candidate is of no use, and would be read as one on another.
+      if (broad_phase_.uses_slots())
+        springs_.forget_others(broad_phase_.slots().n_spheres(), broad_phase_.slots().meshes_of());
       if (watch) broad_phase_.store_positions(b_, spheres, margin);
     });
   }
 
-  bool has_moved(const Spheres &spheres) override
+  bool has_moved(const Spheres &host) override
   {
     bool has = false;
-    where_step_runs([&] { has = broad_phase_.has_moved(b_, mirror_.bring_places(b_, spheres)); });
+    where_step_runs([&] { has = broad_phase_.has_moved(b_, with_places(host)); });
     return has;
   }
 
   void begin(When when = When::in_turn) override
   {
-    when_ = mirror_.is_apart() ? When::in_turn
-                               : when;    // its own stream is beside the host's work anyway
+    when_ = is_apart() ? When::in_turn : when;    // its own stream is beside the host's work anyway
     if (when_ != When::in_turn) beside_.ready(b_);
     state_ = StepState::begun;
   }
@@ -115,7 +117,7 @@ class EngineOn : public WallEngine {
     if (starts_at_submit())
       where_step_runs([&] { compute(next_results_, when_ != When::in_turn); });
     if (when_ == When::beside_adding_early) next_results_.add_forces(b_);
-    if (gives_back_at_submit()) mirror_.start_back(b_);
+    if (mirror_ && gives_back_at_submit()) mirror_->start_back(b_);
     state_ = StepState::submitted;
   }
   bool is_under_way() const override
@@ -131,10 +133,12 @@ class EngineOn : public WallEngine {
     else
       compute(results_, false);
     if (when_ == When::beside) results_.add_forces(b_);
-    if (!gives_back_at_submit()) mirror_.start_back(b_);
-    mirror_.collect(b_);
+    if (mirror_) {
+      if (!gives_back_at_submit()) mirror_->start_back(b_);
+      mirror_->collect(b_);
+    }
     state_ = StepState::none;
-    results_.fetch(b_, step_contacts());
+    results_.fetch(b_, springs_.contacts());
   }
 
   StepResults &results() override { return results_; }
@@ -148,7 +152,7 @@ class EngineOn : public WallEngine {
       throw_for(spheres_, seen);
     clear_diagnostics(seen);
     StepDiagnostics diagnostics = diagnostics_of(seen, first_step_);
-    diagnostics.deepest_radius = mirror_.radius_of(b_, diagnostics.deepest_sphere);
+    if (mirror_) diagnostics.deepest_radius = mirror_->radius_of(b_, diagnostics.deepest_sphere);
     return diagnostics;
   }
 
@@ -164,10 +168,11 @@ class EngineOn : public WallEngine {
   EnergyEngine *energies() override { return B::kOnCpu ? nullptr : &energies_; }
   std::size_t bytes() const override
   {
-    std::size_t bytes =
-        broad_phase_.bytes() + mirror_.bytes() + springs_.bytes() + results_.bytes() +
-        next_results_.bytes() + overflow_.size() * sizeof(OverflowScratch) + work_lists_.bytes() +
-        loads_.bytes() + energies_.bytes() + b_.scratch_bytes() + beside_.scratch_bytes();
+    std::size_t bytes = broad_phase_.bytes() + springs_.bytes() + results_.bytes() +
+                        next_results_.bytes() + overflow_.size() * sizeof(OverflowScratch) +
+                        work_lists_.bytes() + loads_.bytes() + energies_.bytes() +
+                        b_.scratch_bytes() + beside_.scratch_bytes();
+    if (mirror_) bytes += mirror_->bytes();
     for (const auto &nodes : nodes_) bytes += nodes->bytes();
     for (const auto &receded : receded_) bytes += receded.size() * sizeof(Vec3);
     return bytes;
@@ -179,17 +184,12 @@ class EngineOn : public WallEngine {
 
  private:
   // Does the engine work on a step while the host does something else? Forces that a copy brings have to be there by collect().
-  bool starts_at_submit() const { return when_ != When::in_turn || mirror_.is_apart(); }
-  bool gives_back_at_submit() const
+  bool starts_at_submit() const { return when_ != When::in_turn || is_apart(); }
+  bool gives_back_at_submit() const { return when_ == When::beside_adding_early || is_apart(); }
+  bool is_apart() const { return settings_.arrays == HostArrays::apart; }
+  Spheres with_places(const Spheres &host)
   {
-    return when_ == When::beside_adding_early || mirror_.is_apart();
-  }
-
-  // A spring on a mesh of which its sphere is no candidate is of no use, and would be read as one on another.
-  void forget_far_meshes()
-  {
-    if (broad_phase_.uses_slots())
-      springs_.forget_others(broad_phase_.slots().n_spheres(), broad_phase_.slots().meshes_of());
+    return mirror_ ? mirror_->bring_places(b_, host) : host;
   }
 
   // Returns the features of a mesh with their images. Records of nodes that move have none.
@@ -198,15 +198,10 @@ class EngineOn : public WallEngine {
     const bool has_nodes = !nodes_.empty() && nodes_[mesh]->field().velocity;
     return has_nodes ? MeshFeaturesView() : broad_phase_.mesh(mesh).grid.view.wall;
   }
-  // Returns the contacts of the last step, which has swapped the springs or not.
-  const StepContact *step_contacts() const
-  {
-    return springs_.contacts(step_.update_history || (law_.traits.sets_up && !step_.looks));
-  }
   // Return those on a mesh, and its records of energy without the sums of a mesh.
   NodeContacts contacts_on(int mesh) const
   {
-    return results_.node_contacts(step_contacts(), mesh, features(mesh), nullptr);
+    return results_.node_contacts(springs_.contacts(), mesh, features(mesh), nullptr);
   }
   LoadRecords records_on(int mesh) const
   {
@@ -217,8 +212,6 @@ class EngineOn : public WallEngine {
   {
     for (int i = 0; i < kOverflowScratches; i++) put_one(b_, &overflow_.data()[i].locked, 0);
   }
-
-  void clear_counts(int pool) { put_one(b_, &counts_.data()->shared_used[pool], 0); }
 
   // The laws for multi-mesh spheres.
   void put_laws()
@@ -288,13 +281,14 @@ class EngineOn : public WallEngine {
   {
     const std::size_t n = broad_phase_.n();
     const bool several = broad_phase_.uses_slots();
-    spheres_ = mirror_.bring_candidates(b_, spheres_);
+    if (mirror_) spheres_ = mirror_->bring_candidates(b_, spheres_);
     results.begin(law_.traits, step_, spheres_, broad_phase_.candidates(), n,
                   may_miss_any(broad_phase_.mesh(0).grid.view), adds_later,
                   several ? &broad_phase_.slots() : nullptr);
     if (n == 0) return;
     const MeshWork &work = mesh_work(0);
     StepJob job = job_of(work.grid, work.settings, spheres_);
+    job.pool = springs_.next();
     results.put_into(job);
     job.candidates = broad_phase_.candidates();
     job.lists = broad_phase_.lists();
@@ -305,14 +299,9 @@ class EngineOn : public WallEngine {
     are_counts_clear_ = false;
     job.step = static_cast<std::uint64_t>(std::max<std::int64_t>(0, step_.number - first_step_)) &
                DeepestOverlap::kRest;
-    job.pool = springs_.next(results.first_contact());
     if (law_.traits.records)
       job.records = results.begin_records(springs_.places(), settings_.impact_speed);
     job.overflow = overflow_.data();
-    // A step clears the counter of the pool that it does not write. After one that moves no springs, as in setup, the same pool
-    // is written again.
-    if (job.pool.which == pool_written_) clear_counts(job.pool.which);
-    pool_written_ = job.pool.which;
     if (several)
       run_slots(job);
     else
@@ -327,6 +316,7 @@ class EngineOn : public WallEngine {
   {
     if (seen.too_large) throw_for(spheres, seen);
     springs_.make_room(broad_phase_.n(), seen);
+    if (B::kOnCpu) return;
     const bool several = broad_phase_.uses_slots();
     work_lists_.clear(b_, broad_phase_.n(), several ? broad_phase_.slots().n_multi_mesh() : 0,
                       !several, !several && broad_phase_.lists().n,
@@ -335,7 +325,7 @@ class EngineOn : public WallEngine {
 
   void run_law(StepJob &job, std::size_t n, const LawBytes &law)
   {
-    job.work_lists = work_lists_.next(counts_.data());
+    if (!B::kOnCpu) job.work_lists = work_lists_.next(counts_.data());
     law_.run(law, job, n, b_);
   }
 
@@ -389,8 +379,8 @@ class EngineOn : public WallEngine {
   typename B::SideStream beside_;
   When when_ = When::in_turn;    // of the step that was begun
   BroadPhase<B> broad_phase_;
-  SphereMirror<B> mirror_;
-  Spheres spheres_;    // of the step: those of the mirror once it runs
+  std::unique_ptr<SphereMirror<B>> mirror_;    // null: the host's arrays are used as they are
+  Spheres spheres_;                            // of the step: those of the mirror once it runs
   StepSettings step_;
   Array<StepCounts> counts_;
   bool are_counts_clear_ = true;
@@ -411,7 +401,6 @@ class EngineOn : public WallEngine {
   Array<MeshWork> works_;               // the same where kernels read them
   Array<LawEntry> laws_;                // of all meshes
 
-  int pool_written_ = -1;
   Array<OverflowScratch> overflow_;
 };
 

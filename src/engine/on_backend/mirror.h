@@ -125,13 +125,9 @@ class SphereMirror {
   {
   }
 
-  // Returns whether forces come back by a copy, so that the work of a step has to begin when it is submitted.
-  bool is_apart() const { return arrays_ == HostArrays::apart; }
-
   // Each of these returns the engine's spheres: with places, with radii, or with all that a choice reads.
   Spheres bring_places(B &b, const Spheres &host)
   {
-    if (arrays_ == HostArrays::in_place) return host;
     Spheres s = members(b, host);
     const std::size_t n = host.n;
     x_.reserve(3 * n);
@@ -144,7 +140,6 @@ class SphereMirror {
   }
   Spheres bring_radii(B &b, const Spheres &host)
   {
-    if (arrays_ == HostArrays::in_place) return host;
     Spheres s = members(b, host);
     put_radii(b, host);
     s.radius = radius_.data();
@@ -152,7 +147,6 @@ class SphereMirror {
   }
   Spheres bring_for_choice(B &b, const Spheres &host)
   {
-    if (arrays_ == HostArrays::in_place) return host;
     Spheres s = bring_places(b, host);
     put_radii(b, host);
     s.radius = radius_.data();
@@ -167,7 +161,6 @@ class SphereMirror {
   // Makes room for steps over the candidates of a choice among n spheres.
   void make_room(B &b, const BroadPhase<B> &chosen, std::size_t n)
   {
-    if (arrays_ == HostArrays::in_place) return;
     index_ = chosen.candidates();
     n_ = chosen.n();
     if (chosen.uses_slots()) list_each_once(b, chosen.slots());
@@ -188,7 +181,6 @@ class SphereMirror {
   // Returns the engine's spheres with what a step reads of the candidates. Does not wait.
   Spheres bring_candidates(B &b, const Spheres &host)
   {
-    if (arrays_ == HostArrays::in_place) return host;
     host_ = host;
     Spheres s = host;
     s.in_float = nullptr;
@@ -220,7 +212,7 @@ class SphereMirror {
   // Starts to bring forces back, behind the work of the step. Does not wait.
   void start_back(B &b)
   {
-    if (arrays_ == HostArrays::in_place || n_ == 0) return;
+    if (n_ == 0) return;
     if (is_apart()) {
       b.for_each(n_, GetResponses{arrays(), index_, responses_.data()});
       b.copy_out(responses_.data(), responses_on_cpu_.data(), n_);
@@ -237,10 +229,7 @@ class SphereMirror {
   }
 
   // Returns the radius of sphere i of the last step (length) of a host with arrays in float, else 0.
-  Real radius_of(B &b, int i)
-  {
-    return arrays_ != HostArrays::in_float || i < 0 ? 0 : read_one(b, radius_.data() + i);
-  }
+  Real radius_of(B &b, int i) { return is_apart() || i < 0 ? 0 : read_one(b, radius_.data() + i); }
 
   std::size_t bytes() const
   {
@@ -256,6 +245,7 @@ class SphereMirror {
   }
 
  private:
+  bool is_apart() const { return arrays_ == HostArrays::apart; }
   MirrorArrays arrays()
   {
     return {x_.data(),      v_.data(),    omega_.data(),       force_.data(),    torque_.data(),

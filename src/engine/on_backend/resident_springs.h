@@ -33,7 +33,7 @@ class ResidentSprings : public Springs {
 
  public:
   // `counts`: where kernels count what a step used of a pool. Backend and counts must outlive it.
-  ResidentSprings(B &backend, const LawTraits &traits, const StepCounts *counts) :
+  ResidentSprings(B &backend, const LawTraits &traits, StepCounts *counts) :
       b_(backend), traits_(traits), counts_(counts)
   {
   }
@@ -127,18 +127,22 @@ class ResidentSprings : public Springs {
     });
   }
 
-  // Returns the pool that the next step writes; `first_contact`: see ContactPool.
-  ContactPool next(int *first_contact)
+  // Returns the pool that the next step writes, of which no shared place is used.
+  ContactPool next()
   {
-    Pool &pool = pool_[1 - now_];
+    // A step clears the counter of the pool that it does not write. After one that moves no springs, as in setup, the same pool
+    // is written again.
+    if (written_ == 1 - now_) put_one(b_, &counts_->shared_used[written_], 0);
+    written_ = 1 - now_;
+    Pool &pool = pool_[written_];
     if (pool.size < wanted_) pool = make(with_spare(wanted_));
     pool.shared = n_candidates_;
     return {static_cast<int>(pool.shared),
             static_cast<int>(pool.size),
-            1 - now_,
+            written_,
             first_.data(),
             count_.data(),
-            first_contact,
+            nullptr,
             pool.springs.data(),
             pool.extra.data(),
             pool.contacts.data()};
@@ -153,11 +157,8 @@ class ResidentSprings : public Springs {
     end_ = kUnknown;
   }
 
-  // Returns the contacts of the last step, with gaps; `moved`: did it move springs?
-  const StepContact *contacts(bool moved) const
-  {
-    return pool_[moved ? now_ : 1 - now_].contacts.data();
-  }
+  // Returns the contacts of the last step, with gaps.
+  const StepContact *contacts() const { return pool_[written_].contacts.data(); }
 
   void to_store(ContactHistory &store, int n_spheres) override
   {
@@ -323,10 +324,10 @@ class ResidentSprings : public Springs {
 
   B &b_;
   LawTraits traits_;
-  const StepCounts *counts_;
+  StepCounts *counts_;
   Array<int> first_, count_;
   Pool pool_[2];
-  int now_ = 0;
+  int now_ = 0, written_ = 0;    // the pool that steps read, and the one that the last step wrote
   std::size_t n_candidates_ = 0, wanted_ = 0;
   std::size_t end_ = 0;    // of what is used of the pool that is read
 };

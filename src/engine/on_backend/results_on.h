@@ -85,9 +85,11 @@ class ResultsOn : public StepResults {
     return of;
   }
 
+  // Has a step that has its pool put its results here.
   void put_into(StepJob &job)
   {
     job.result = columns_;
+    job.pool.first_contact = first_contact_.data();
     job.heat = heat_.data();
     job.energy = energy_.data();
     job.is_booked = is_booked_.data();
@@ -116,7 +118,6 @@ class ResultsOn : public StepResults {
     });
   }
 
-  int *first_contact() { return first_contact_.data(); }
   const Array<int> &n_contacts() const { return n_contacts_; }
 
   // Copies what the step's settings ask for to the CPU; `contacts`: with gaps.

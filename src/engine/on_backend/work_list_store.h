@@ -24,7 +24,6 @@ class WorkListStore {
   void clear(B &b, std::size_t n, std::size_t n_multi_mesh, bool carries_over, bool has_fast_path,
              const char *multi_contact, StepCounts *counts, const StepCounts &seen)
   {
-    if (B::kOnCpu) return;
     const bool has_stepped = step_ > 0;
     carries_over_ = carries_over;
     step_ = 0;
@@ -60,7 +59,6 @@ class WorkListStore {
   WorkLists next(StepCounts *counts)
   {
     WorkLists lists;
-    if (B::kOnCpu) return lists;
     const int turn = ++step_ % 2;
     lists.found = column(2);
     lists.n_found = counts->n_found + turn;
