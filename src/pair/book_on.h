@@ -22,6 +22,8 @@ struct BookPairs {
 
   LSDCD_FN void operator()(std::size_t k) const
   {
+    EnergyRows of_row;
+    bool any = false;
     std::size_t place = std::size_t(s.now.first[k]),
                 old_place = s.old.words ? std::size_t(s.old.first[k]) : 0;
     for (int w = 0; w < s.words; w++) {
@@ -31,20 +33,24 @@ struct BookPairs {
         const unsigned bit = lowest_bit(bits);
         const bool touches = now >> bit & 1, touched = old >> bit & 1;
         const PairNumbers<Real> none = {nullptr, 0};
-        book(k, s.list.at(s.list.grain[k], kWordBits * w + static_cast<int>(bit)),
-             touched ? s.old.of(old_place) : none, touches ? s.now.of(place) : none);
+        any |= book(k, s.list.at(s.list.grain[k], kWordBits * w + static_cast<int>(bit)),
+                    touched ? s.old.of(old_place) : none, touches ? s.now.of(place) : none, of_row);
         place += touches ? s.step : 0;
         old_place += touched ? s.step : 0;
       }
     }
+    if (!any) return;
+    for (int row = 0; row < kEnergyRows; row++) rows[k].of[row] += of_row.of[row];
+    is_booked[k] = 1;
   }
 
  private:
-  LSDCD_FN void book(std::size_t k, int with, const PairNumbers<Real> &old,
-                     const PairNumbers<Real> &now) const
+  // Returns whether the pair is one of this law.
+  LSDCD_FN bool book(std::size_t k, int with, const PairNumbers<Real> &old,
+                     const PairNumbers<Real> &now, EnergyRows &sum) const
   {
     const int i = s.list.grain[k], j = with & s.list.mask, law = s.law(i, j);
-    if (s.kind_of[law] != s.kind) return;
+    if (s.kind_of[law] != s.kind) return false;
     GrainPair p = {};
     p.offset = s.x[i] - s.x[j];
     p.distance_sq = norm_sq(p.offset);
@@ -62,8 +68,8 @@ struct BookPairs {
     book_pair(s.laws[law].template in_kernel<Law>(), p, old, now, s.width, of);
     const bool whole = !s.list.full && (s.both_sides || j < s.n_own);
     const Real share = (whole ? 1 : 0.5) * s.factor[with >> s.list.factor_shift & 3];
-    for (int row = 0; row < kEnergyRows; row++) rows[k].of[row] += share * of.of[row];
-    is_booked[k] = 1;
+    for (int row = 0; row < kEnergyRows; row++) sum.of[row] += share * of.of[row];
+    return true;
   }
 };
 

@@ -6,6 +6,7 @@
 
 #include "backend/atomic.h"
 #include "backend/backend.h"
+#include "backend/warp.h"
 #include "engine/results/result_columns.h"
 #include "engine/results/step_results.h"
 #include "engine/results/sum_unit.h"
@@ -22,80 +23,107 @@ struct EnergyUnits {
   std::int64_t of[kEnergyRows];
 };
 
-// Slots in blocks.
+// Slots in blocks. A GPU has a thread for each slot, whose warp adds up before it goes to memory; a CPU's goes there once for a block.
 struct BookedSlots {
   std::size_t n;
   const EnergyRows *rows;
   const char *is_booked;
   const int *mesh;    // of each; null: there is one
 
+  template <class B>
+  static constexpr std::size_t kBlock = B::kOnCpu ? kTotalsBlock : 1;
+  template <class B>
+  std::size_t n_blocks() const
+  {
+    return (n + kBlock<B> - 1) / kBlock<B>;
+  }
+
   LSDCD_FN int mesh_of(std::size_t k) const { return mesh ? mesh[k] : 0; }
-  // Calls see(k) for each booked slot of block `at`, and flush(mesh) behind those of a mesh that follow each other: what a thread
-  // gathers of them goes to memory once, as threads wait for each other there.
-  template <class See, class Flush>
-  LSDCD_FN void for_each(std::size_t at, const See &see, const Flush &flush) const
+  // Calls see(k) for each booked slot of block `at`, and flush(mesh) behind those of a mesh that others of this block follow. Returns
+  // the last mesh, whose slots are still to be flushed; -1: no slot is booked.
+  template <class B, class See, class Flush>
+  LSDCD_FN int for_each(std::size_t at, const See &see, const Flush &flush) const
   {
     int last = -1;
-    for (std::size_t k = at * kTotalsBlock; k < (at + 1) * kTotalsBlock && k < n; k++) {
+    for (std::size_t k = at * kBlock<B>; k < (at + 1) * kBlock<B> && k < n; k++) {
       if (!is_booked[k]) continue;
       if (last >= 0 && last != mesh_of(k)) flush(last);
       last = mesh_of(k);
       see(k);
     }
-    if (last >= 0) flush(last);
+    return last;
   }
 };
 
 // Sees the ranges of a block; they are clear before.
+template <class B>
 struct SeeEnergy {
   BookedSlots in;
   EnergyRange *range;    // of each mesh
 
-  LSDCD_FN void operator()(std::size_t at) const
+  template <unsigned kSize>
+  LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t at) const
   {
-    EnergyRange seen = {};
-    in.for_each(
-        at,
-        [&](std::size_t k) {
-          seen.count++;
-          for (int row = 0; row < kEnergyRows; row++) {
-            const std::uint64_t exponent = exponent_field(in.rows[k].of[row]);
-            if (exponent > seen.exponent[row]) seen.exponent[row] = exponent;
-          }
-        },
-        [&](int mesh) {
-          EnergyRange &of = range[mesh];
-          add_signed(reinterpret_cast<std::int64_t *>(&of.count),
-                     static_cast<std::int64_t>(seen.count));
-          for (int row = 0; row < kEnergyRows; row++)
-            if (seen.exponent[row] > 0) raise_to(&of.exponent[row], seen.exponent[row]);
-          seen = {};
-        });
+    std::int64_t count[1] = {0};
+    std::uint64_t most[kEnergyRows] = {};
+    const auto raise = [&](int mesh) {
+      for (int row = 0; row < kEnergyRows; row++) {
+        if (most[row] > 0) raise_to(&range[mesh].exponent[row], most[row]);
+        most[row] = 0;
+      }
+    };
+    const auto add = [&](int mesh) {
+      add_signed(reinterpret_cast<std::int64_t *>(&range[mesh].count), count[0]);
+      count[0] = 0;
+    };
+    int last = -1;
+    if (mine)
+      last = in.template for_each<B>(
+          at,
+          [&](std::size_t k) {
+            count[0]++;
+            for (int row = 0; row < kEnergyRows; row++) {
+              const std::uint64_t exponent = exponent_field(in.rows[k].of[row]);
+              if (exponent > most[row]) most[row] = exponent;
+            }
+          },
+          [&](int mesh) {
+            raise(mesh);
+            add(mesh);
+          });
+    if (last >= 0) raise(last);
+    if (warp.sum_by_key(last >= 0, last, count)) add(last);
   }
 };
 // Adds a block to the sums, which are 0 before.
+template <class B>
 struct SumEnergy {
   BookedSlots in;
   const EnergyRange *range;
   EnergyUnits *sums;    // of each mesh
 
-  LSDCD_FN void operator()(std::size_t at) const
+  template <unsigned kSize>
+  LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t at) const
   {
     EnergyUnits added = {};
-    in.for_each(
-        at,
-        [&](std::size_t k) {
-          for (int row = 0; row < kEnergyRows; row++) {
-            const SumUnit unit = range[in.mesh_of(k)].unit(row);
-            const Real number = in.rows[k].of[row];
-            if (number != 0 && unit.is_finite()) added.of[row] += unit.units(number);
-          }
-        },
-        [&](int mesh) {
-          for (int row = 0; row < kEnergyRows; row++)
-            if (added.of[row] != 0) add_signed(&sums[mesh].of[row], added.of[row]);
-          added = {};
-        });
+    const auto flush = [&](int mesh) {
+      for (int row = 0; row < kEnergyRows; row++)
+        if (added.of[row] != 0) add_signed(&sums[mesh].of[row], added.of[row]);
+      added = {};
+    };
+    int last = -1;
+    if (mine)
+      last = in.template for_each<B>(
+          at,
+          [&](std::size_t k) {
+            for (int row = 0; row < kEnergyRows; row++) {
+              const SumUnit unit = range[in.mesh_of(k)].unit(row);
+              const Real number = in.rows[k].of[row];
+              if (number != 0 && unit.is_finite()) added.of[row] += unit.units(number);
+            }
+          },
+          flush);
+    if (warp.sum_by_key(last >= 0, last, added.of)) flush(last);
   }
 };
 
@@ -118,13 +146,13 @@ class EnergySums {
     sums_on_cpu_.reserve(n_meshes);
     EnergyRange *range = ranges_.data();
     EnergyUnits *sum = sums_.data();
-    const std::size_t n_blocks = (in.n + kTotalsBlock - 1) / kTotalsBlock;
+    const std::size_t n_blocks = in.n_blocks<B>();
     b.for_each(n_meshes, [=] LSDCD_LAMBDA(std::size_t m) {
       range[m] = EnergyRange();
       sum[m] = EnergyUnits();
     });
-    b.for_each(n_blocks, SeeEnergy{in, range});
-    b.for_each(n_blocks, SumEnergy{in, range, sum});
+    b.for_each_in_warps(n_blocks, SeeEnergy<B>{in, range});
+    b.for_each_in_warps(n_blocks, SumEnergy<B>{in, range, sum});
     b.copy_out(range, ranges_on_cpu_.data(), n_meshes);
     b.copy_out(sum, sums_on_cpu_.data(), n_meshes);
     b.wait();
