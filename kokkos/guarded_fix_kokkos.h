@@ -28,6 +28,12 @@ class GuardedFixKokkos : public GuardedFix<Style> {
     if (suffix) *suffix = 0;
   }
 
+  void post_run() override
+  {
+    GuardedFix<Style>::post_run();
+    lsdcd::leave_atoms_to_host(this->lmp);
+  }
+
   // On one process, whatever the others do.
   int pack_exchange_kokkos(const int &n, lsdcd::ExchangeBuffer &buffer, DAT::tdual_int_1d which,
                            DAT::tdual_int_1d from, ExecutionSpace space) override

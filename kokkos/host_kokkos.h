@@ -113,6 +113,13 @@ void with_atoms_of_host(LAMMPS_NS::LAMMPS *lmp, Work &&work)
   lmp->kokkos->auto_sync = before;
 }
 
+// At the end of a run the host has all atoms. Counts them as changed there, so that the next run takes from the host what commands
+// such as set and velocity change without a word to Kokkos, also with "run ... pre no", which sets nothing up.
+inline void leave_atoms_to_host(LAMMPS_NS::LAMMPS *lmp)
+{
+  static_cast<LAMMPS_NS::AtomKokkos *>(lmp->atom)->modified(LAMMPS_NS::Host, ALL_MASK);
+}
+
 // Brings a device atoms as commands between runs left them on the host: set and velocity change them there without a word to Kokkos.
 // LAMMPS does so itself all through a setup until it calls setup() of fixes.
 inline void bring_after_commands(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::ExecutionSpace space,
