@@ -182,7 +182,8 @@ def test_bodies(folder):
             moves.append(go(folder, flags, script, ranks)[0])
             rows.append(lmp.read_rows(folder / "out.txt"))
         at_most(f"bodies, {ranks} ranks: spheres as with the plain fix", lmp.largest_difference(*moves), 1e-9)
-        sizes = [max(1e-9, *(abs(r[k]) for r in rows[0])) for k in range(len(rows[0][0]))]
+        # Components that are 0 by symmetry have the rounding of the others, which are of order 1; a GPU rounds in its own way.
+        sizes = [max(1e-3, *(abs(r[k]) for r in rows[0])) for k in range(len(rows[0][0]))]
         at_most(f"bodies, {ranks} ranks: bodies as with the plain fix",
                 max(abs(a - b) / s for p, q in zip(*rows) for a, b, s in zip(p, q, sizes)), 1e-9)
         last, n = rows[0][-1], test_body.ENERGY
