@@ -209,11 +209,14 @@ void FixSpringsLsdcd::post_run()
   keep_names();
 }
 
-// No dump has the springs of its snapshots, and what is there is of another time.
+// No dump has the springs of its snapshots, and what is there is of another time. LAMMPS's write_data calls this between runs, and
+// atoms may get other IDs after it.
 void FixSpringsLsdcd::setup_pre_exchange()
 {
   if (watch.sees_snapshot(*update)) forget();
+  const bool stays_between_runs = between_runs && update->whichflag == 0;
   pre_exchange();
+  between_runs = stays_between_runs;
 }
 
 void FixSpringsLsdcd::forget()

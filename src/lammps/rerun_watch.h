@@ -16,7 +16,7 @@ class RerunWatch {
   void init(const class Update &);    // in the fix's init()
   // After it: may this be a snapshot of a rerun? Its atoms may be anywhere, and have the IDs of its dump.
   bool may_be_snapshot(const class Update &) const;
-  // In the fix's setup(): is this a snapshot of a rerun?
+  // In the fix's setup() or setup_pre_exchange(): is this a snapshot of a rerun?
   bool sees_snapshot(const class Update &);
 
  private:

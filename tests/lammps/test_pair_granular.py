@@ -181,17 +181,21 @@ def by_mass(path):
 
 @pytest.mark.parametrize("newton, ranks", [("off", 1), ("on", 4)])
 def test_new_ids(folder, newton, ranks):
-    """Grains that get other IDs between runs, as by delete_atoms, keep their springs: they go on as with their old IDs."""
+    """Grains that get other IDs between runs, as by delete_atoms, keep their springs: they go on as with their old IDs. So they do behind
+    write_data, which sets up an exchange between runs."""
     law = f"{ours('* * ' + FULL)}\nfix i all nve/sphere\ntimestep {DT}\n" + dump("out", 100).replace("out id", "out id mass")
 
-    def end(compress, commands=""):
-        lmp.run_well(settings(newton) + f"read_data grains.data\n{law}run 200\ngroup gone id 3:200:9\ndelete_atoms group gone compress {compress}\n"
+    def end(compress, commands="", first=""):
+        lmp.run_well(settings(newton) + f"read_data grains.data\n{law}run 200\n{first}group gone id 3:200:9\ndelete_atoms group gone compress {compress}\n"
                      f"{commands}run 100\n", folder, ranks)
         return {0: by_mass(folder / "out")}
 
     kept = end("no")
     fact("grains", len(kept[0]) == SIDE**3 - 22, str(len(kept[0])))
     at_most("new IDs", lmp.largest_difference(kept, end("yes")), 1e-10)
+    write = "write_data {}.data nocoeff\n"
+    at_most("write_data", lmp.largest_difference(kept, end("no", write.format("behind"), write.format("before"))), 1e-10)
+    at_most("write_data and new IDs", lmp.largest_difference(kept, end("yes", first=write.format("before"))), 1e-10)
     at_most("new IDs, and a restart", lmp.largest_difference(kept, end("yes", "write_restart r\nclear\n" + settings(newton) + "read_restart r\n" + law)), 1e-10)
     reset = "reset_atoms id\n" if lmp.version() > 20210929 else "reset_atom_ids\n"
     restarted = end("no", "write_restart r\nclear\n" + settings(newton) + "read_restart r\n" + law + reset)
