@@ -41,6 +41,8 @@ struct EngineSettings {
   Real friction_heat =
       0;    // where laws book energy and have heat: the share of what the slider loses that is heat of the sphere
   Real impact_speed = 0;    // impacts that are faster are recorded (length/time); 0: none are
+  Real velocity_unit =
+      1;    // a force times time over a mass, in the unit of velocity: energies of impacts are over it
   HostArrays arrays = HostArrays::in_place;
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)

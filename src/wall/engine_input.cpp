@@ -8,9 +8,9 @@
 namespace lsdcd {
 
 EngineInput::EngineInput(const Host &host, const WallSpec &wall, const LawTable &laws,
-                         const std::deque<MeshPart> &meshes) :
+                         const std::deque<MeshPart> &meshes, Real velocity_unit) :
     host_(host),
-    wall_(wall), laws_(laws), meshes_(meshes),
+    wall_(wall), laws_(laws), meshes_(meshes), velocity_unit_(velocity_unit),
     has_surfaces_(wall.meshes.size() > 1 || wall.meshes.front().surface_varies()),
     has_heat_(wall.law().has_heat())
 {
@@ -37,6 +37,7 @@ EngineSettings EngineInput::settings(Device device, bool virial, bool pushed) co
   want.wear = wall_.wear.model;
   want.energy_places = wall_.has_energy_places();
   want.impact_speed = wall_.impact_speed;
+  want.velocity_unit = velocity_unit_;
   want.friction_heat = wall_.friction_heat;
   want.device = device;
   want.device_rank = host_.ranks().node_rank;

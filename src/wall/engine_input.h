@@ -24,7 +24,7 @@ class EngineInput {
  public:
   // All must outlive it.
   EngineInput(const Host &host, const WallSpec &wall, const LawTable &laws,
-              const std::deque<MeshPart> &meshes);
+              const std::deque<MeshPart> &meshes, Real velocity_unit);
 
   // Returns the settings of an engine on this device. `virial`: contacts will be asked for. `pushed`: a mesh is, or was, moved by its loads.
   EngineSettings settings(Device device, bool virial, bool pushed) const;
@@ -36,6 +36,7 @@ class EngineInput {
   const WallSpec &wall_;
   const LawTable &laws_;
   const std::deque<MeshPart> &meshes_;
+  Real velocity_unit_;    // see EngineSettings
   StepSettings of_all_steps_;
   bool has_surfaces_ = false, has_heat_ = false;    // of meshes, which steps ask for
   // Of each mesh in this step.

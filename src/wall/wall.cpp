@@ -22,7 +22,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     host_(host),
     spec_(in_units(std::move(spec), units.pressure)), laws_(law_table(spec_)),
     backend_(std::move(backend)), clock_(clock), pressure_unit_(units.pressure),
-    engine_input_(host, spec_, laws_, meshes_), coats_(host, spec_, meshes_),
+    engine_input_(host, spec_, laws_, meshes_, units.velocity), coats_(host, spec_, meshes_),
     history_(host, spec_.law()), totals_(host, spec_), means_(host, spec_), loads_(host, spec_),
     energy_(host, spec_), records_(host, spec_), files_(host, spec_, units.pressure),
     overlaps_(host, spec_), search_(host), times_(host), timestep_(host, laws_, units.velocity),

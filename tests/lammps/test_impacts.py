@@ -50,6 +50,23 @@ def test_bounce(folder):
         fact(f"{law}: not faster than the least speed", hits(folder, law, 1e-3, "run 300", "impacts 1.0001")["impacts"] == 0)
 
 
+def test_units(folder):
+    """The energy of an impact is LAMMPS's kinetic energy before it, also where a mass times the square of a velocity is no energy; a body has
+    the reduced mass there, too."""
+    for units, mv2e in (("real", 48.88821291 ** 2), ("metal", 1.0364269e-4), ("electron", 1.06657236), ("si", 1), ("nano", 1)):
+        k, dt = 1e4, 0.01 * math.sqrt(mv2e / 1e4)    # sqrt(m/k) is 100 steps
+        script = SPHERE.replace("units           lj", f"units           {units}").replace("energy\n", "impacts 1e-9 impact_spectrum s.csv every 150\n")
+        for mesh, reduced in (("floor.stl", 1), ("floor.stl body mass 3 com 0 0 0 inertia 1 1 1 0 0 0 joint slider 0 0 1", 0.75)):
+            text = script.replace("mesh floor.stl", f"mesh {mesh}").format(x="0.3 0.2 0.50001", v=f"0 0 {-1e-4 / dt!r}", move="fix move all nve/sphere",
+                                                                          law=f"hooke {k} NULL 0 NULL 0 0", dt=repr(dt), columns=f"{COUNT} {ENERGY}", run="run 150")
+            rows = lmp.read_thermo(lmp.run_well(text, folder))
+            before, (found, energy) = rows[0][1], rows[-1][3:]
+            fact(f"{units}, {mesh}: one impact", found == 1, rows)
+            at_most(f"{units}, {mesh}: energy", abs(energy / (reduced * before) - 1), 1e-7)    # LAMMPS has mvv2e and ftm2v to 9 digits
+            begin, end, n, of_bin = map(float, (folder / "s.csv").read_text().split("\n")[1].split(","))
+            fact(f"{units}: the bin has it", begin <= of_bin < end and n == 1 and abs(of_bin / energy - 1) < 1e-12, (begin, end, n, of_bin))
+
+
 def test_no_impact(folder):
     """A sphere that rests in overlap, at the begin of a run and of a second one, and one that slides over seams, are none."""
     for law in LAWS[:2]:

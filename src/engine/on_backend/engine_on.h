@@ -299,8 +299,7 @@ class EngineOn : public WallEngine {
     are_counts_clear_ = false;
     job.step = static_cast<std::uint64_t>(std::max<std::int64_t>(0, step_.number - first_step_)) &
                DeepestOverlap::kRest;
-    if (law_.traits.records)
-      job.records = results.begin_records(springs_.places(), settings_.impact_speed);
+    if (law_.traits.records) job.records = results.begin_records(springs_.places(), settings_);
     job.overflow = overflow_.data();
     if (several)
       run_slots(job);

@@ -61,13 +61,13 @@ class ResultsOn : public StepResults {
   }
 
   // Returns where kernels of the step put at most so many records.
-  EnergyRecordList begin_records(std::size_t most, Real impact_speed)
+  EnergyRecordList begin_records(std::size_t most, const EngineSettings &settings)
   {
     records_.reserve(most);
     n_records_.reserve(1);
     put_one(*b_, n_records_.data(), 0);
     has_records_ = true;
-    return {records_.data(), n_records_.data(), impact_speed};
+    return {records_.data(), n_records_.data(), settings.impact_speed, settings.velocity_unit};
   }
   EnergyRecords energy_records() const override
   {

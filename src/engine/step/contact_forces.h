@@ -64,7 +64,8 @@ struct EnergyBook;
 struct EnergyRecordList {
   EnergyRecord *at;
   int *n;
-  Real impact_speed;    // impacts that are faster are recorded; 0: none are
+  Real impact_speed;     // impacts that are faster are recorded; 0: none are
+  Real velocity_unit;    // see EngineSettings
 
   LSDCD_FN void put(const EnergyRecord &record) const
   {
@@ -207,12 +208,12 @@ LSDCD_FN void store_extra(const Law &law, const Memory &memory, Real *to)
 
 // Puts the energy and the speed of an impact, by which a contact begins that no other hands a spring. A sphere that was put
 // there, or had its contact hidden behind others, has come farther than in this step.
-LSDCD_FN void add_impact(const Contact &c, Real least_speed, EnergyRecord &record)
+LSDCD_FN void add_impact(const Contact &c, const EnergyRecordList &records, EnergyRecord &record)
 {
   constexpr Real kSteps = 1.5;    // speeds change on the way, and are those of half of it
-  const Real speed = -c.v_normal;
-  if (!(least_speed > 0 && speed > least_speed && c.overlap <= kSteps * c.dt * speed)) return;
-  record.impact = 0.5 * c.mass * speed * speed;
+  const Real speed = -c.v_normal, least = records.impact_speed;
+  if (!(least > 0 && speed > least && c.overlap <= kSteps * c.dt * speed)) return;
+  record.impact = 0.5 * c.mass * speed * speed / records.velocity_unit;
   record.speed = speed;
 }
 
@@ -359,7 +360,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     if constexpr (Law::kRecords) {
       EnergyRecord record = {set.feature[i], mesh, 0, 0, 0};
       if constexpr (Law::kEnergy) record.dissipated = dissipated(sink.book->rows) - lost_before;
-      if (settings.update && in.from < 0) add_impact(c, sink.records.impact_speed, record);
+      if (settings.update && in.from < 0) add_impact(c, sink.records, record);
       sink.records.put(record);
     }
     if constexpr (Law::kHistory) {
