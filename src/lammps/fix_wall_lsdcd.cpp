@@ -315,6 +315,9 @@ void FixWallLsdcd::init()
   }
   if (!rigid) std::vector<double>().swap(damping_mass);
   check_heat();
+  if (spec().energy && std::strncmp(update->integrate_style, "respa", 5) == 0)
+    fatal("energy is booked with velocities that are the same in a whole step, which those of "
+          "run_style respa are not: use run_style verlet, or leave out energy");
   if (spec().has_bodies()) init_bodies();
   for (const int k : wall->inputs_read()) find_variable(spec().inputs[k]);
   wall->begin_run(update->ntimestep, thermo_virial);

@@ -150,8 +150,9 @@ LSDCD_FN void book_pair(const Law &law, const GrainPair &p, const PairNumbers<Re
   FullForce f;
   PairForce unused;
   evaluate_pair(HeardLaw<Law>{law, &c, &f}, p, memory, unused);
-  const ForceParts parts = law.parts(c, begun, memory, f);
-  const KeptForces now = kept_of(c.normal, f, parts, 1, 0, 0);
+  const ForceParts parts = law.parts(c, begun, p.update ? memory : begun, f);
+  KeptForces now = kept_of(c.normal, f, parts, 1, 0, 0);
+  now.held = held_of(law, c, f, 1, now);
   write_kept(now, numbers, of_law);
   rows[EnergyRow::held] += now.held;
   if (!p.update) return;

@@ -92,6 +92,39 @@ def test_bounce(folder):
     at_most("at 25 steps a contact it is below k (v dt)^2/8 at both ends", abs(means[25]), 2 * (math.pi / 25) ** 2 / 4)
 
 
+def test_ways_to_leave(folder):
+    """The work of a bounce is the kinetic energy that it takes, wherever lists of what is near end: without a skin, and with a group whose
+    grains change, the grain that leaves the wall is near it no longer in that step."""
+    law = "hooke/history 1e4 NULL 20 NULL 0.5 1"
+    for name, move, of in (("a skin", "", "all"), ("no skin", "neighbor 0 bin\n", "all"), ("a dynamic group", "group near dynamic all every 1\n", "near")):
+        script = SPHERE.replace("fix             wall all", f"{move}fix             wall {of}").replace("0.5 1.2", "0.5")
+        for z in ("0.5", "0.5003", "0.5007"):
+            text = script.format(x=f"0.3 0.2 {z}", v="0.4 0 -1", move="fix move all nve/sphere", law=law, dt="1e-3", columns=" ".join(COLUMNS), run="run 60")
+            b = row_of(lmp.run_well(text, folder))
+            at_most(f"{name}, {z}: work", abs(b["work"] - (0.58 - b["ke"] - b["spin"])), 1e-12)
+            fact(f"{name}, {z}: it has left, and nothing was inserted", b["held"] == 0 == b["inserted"] and b["damping"] > 0.1, b)
+
+
+def test_many_setups(folder):
+    """A grain that slips, rolls and twists as it bounces on a slope: what it holds does not change where a run begins anew, so that nothing
+    is inserted, and books of 40 runs close as those of one."""
+    move = "fix move all nve/sphere\nset group all omega 3 -20 8\nfix g all gravity 50 vector 0.4 0 -1"
+    for law in ("hooke/history 1e4 4e3 60 NULL 0.3 1 rolling epsd2 0.2", "granular hooke 1e4 60 damping mass_velocity tangential linear_history 4e3 1 0.3 "
+                "rolling sds 1e3 0.1 0.02 twisting sds 30 0.1 0.002", "granular hertz 1e5 60 damping mass_velocity tangential mindlin_rescale/force 1e5 1 0.3 "
+                "rolling epsd 0.2 0.1", "granular hertz 1e5 60 damping mass_velocity tangential linear_history_liggghts 4e3 1 0.3"):
+        one, many = (books(folder, law, 2e-4, run, v="3 0 -1", x="0.3 0.2 0.51", move=move) for run in ("run 2000", "run 50\n" * 40))
+        lost = sum(one[c] for c in CAUSES)
+        close(f"{law}: inserted", many["inserted"], one["inserted"], lost, 1e-12)
+        at_most(f"{law}: remainders", max(abs(b["remainder"]) for b in (one, many)) / lost, 1e-3)
+
+
+def test_respa(folder):
+    """Velocities are not the same in a whole step of respa, so that its work is not that of the books."""
+    text = SPHERE.format(x=DOWN, v="0 0 0", move="fix move all nve/sphere", law="hooke 1e4 NULL 20 NULL 0 0", dt="1e-4", columns=" ".join(COLUMNS),
+                         run="run_style respa 2 2 pair 1\nrun 1")
+    lmp.refused("respa", text, folder, "use run_style verlet, or leave out energy")
+
+
 HELD = "fix move all move linear {v} units box"
 KN, OVERLAP = 1e4, 0.01
 PRESS = KN * OVERLAP

@@ -275,6 +275,15 @@ def test_books_that_come_and_go(folder):
             fact(f"restarted, {first} and {then}", (folder / f"{first}{then}.txt").read_bytes() == (folder / "TrueTrue.txt").read_bytes())
 
 
+def test_many_setups(folder):
+    """What grains hold does not change where a run begins anew: nothing is inserted, and books of 20 runs close as those of one."""
+    for law in CLOUD_LAWS[1:]:
+        one, many = (cloud(folder, law, 4e-5, run)[-1] for run in ("run 1000", "run 50\n" * 20))
+        lost = sum(one[c] for c in CAUSES if c != "adhesion")
+        close(f"{law}: inserted", many["inserted"], one["inserted"], lost, 1e-12)
+        at_most(f"{law}: remainders", max(abs(b["remainder"]) for b in (one, many)) / lost, 2e-3)
+
+
 def test_grains_that_come_and_go(folder):
     """What a contact holds that is deleted with its grain is lost; what one holds that begins in overlap was there before."""
     law, held = f"law hooke {KN} NULL 0 NULL 0 0", KN * OVERLAP ** 2 / 2

@@ -94,13 +94,12 @@ LSDCD_FN SpringLoss spring_loss_at_end(const Vec3 &path, const Vec3 &old, const 
   return spring_loss(spring, true, path, {0, 0, 0}, old, old_spring, old_k);
 }
 
-// Returns what a contact keeps whose force `f` has these parts; `weight`: of the contact.
+// Returns what a contact keeps whose force `f` has these parts, but for `held`; `weight`: of the contact.
 LSDCD_FN KeptForces kept_of(const Vec3 &n, const FullForce &f, const ForceParts &parts, Real weight,
                             Real distance, Real arm)
 {
   const Real twisting = dot(f.contact_torque, n);
-  KeptForces now;
-  now.held = weight * f.energy;
+  KeptForces now = {};
   now.weight = weight;
   now.elastic = weight * parts.elastic;
   now.damping = weight * (f.normal - parts.elastic);
@@ -116,6 +115,15 @@ LSDCD_FN KeptForces kept_of(const Vec3 &n, const FullForce &f, const ForceParts 
   now.k_rolling = weight * parts.rolling.k;
   now.k_twisting = weight * parts.twisting.k;
   return now;
+}
+
+// Returns what a contact holds. In a setup the limits of friction cut forces, but springs stay as they are.
+template <class Law, class C>
+LSDCD_FN Real held_of(const Law &law, const C &c, const FullForce &f, Real weight,
+                      const KeptForces &now)
+{
+  return c.update ? weight * f.energy
+                  : weight * law.normal_energy(c, c.overlap) + springs_energy(now);
 }
 
 // Adds what sliding, rolling and twisting lose.
@@ -183,7 +191,8 @@ struct EnergyBook {
   {
     const Contact &c = b.c;
     const Vec3 &n = c.normal;
-    const KeptForces now = kept_of(n, b.f, b.parts, b.weight, b.distance, b.arm);
+    KeptForces now = kept_of(n, b.f, b.parts, b.weight, b.distance, b.arm);
+    now.held = held_of(law, c, b.f, b.weight, now);
     memcpy(to + n_extra(law), &now, sizeof now);
     if constexpr (Law::kNodes) {
       const Real *const share = b.nodes.share;

@@ -80,6 +80,7 @@ void add_grain(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wa
   const Contact &c = b.c;
   const Vec3 &n = c.normal;
   KeptForces now = kept_of(n, b.f, b.parts, b.weight, b.distance, b.arm);
+  now.held = held_of(law, c, b.f, b.weight, now);
   now.rolling = cross(at.arm, (now.elastic + now.damping) * n + now.friction) + at.couple;
   memcpy(to + n_extra(law), &now, sizeof now);
   book.rows[EnergyRow::held] += now.held;
