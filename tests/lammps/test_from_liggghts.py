@@ -1015,6 +1015,11 @@ def test_whole_scripts(folder):
         fact(f"the dashpot of the friction is noted of a contact {what}", ("# NOTE in.there:7: until the spring" in out) == noted, out)
         _, out = convert(folder, text + MESH.format("") + WALL)
         fact(f"a mesh has it, {what}", "until the spring" not in out, out)
+    for gammat, noted in ((5, True), (0, False)):
+        numbers = "".join(f"fix n{k} all property/global {name} peratomtypepair 1 {v}\n" for k, (name, v) in enumerate(
+            (("kn", 1e5), ("kt", 1e5), ("gamman", 5), ("gammat", gammat))))
+        _, out = convert(folder, MATERIAL + numbers + MESH.format("") + WALL.replace("hertz", "hooke/stiffness"))
+        fact(f"of a style with gammat {gammat}, too", ("# NOTE in.there:10: until the spring" in out) == noted and "wall/lsdcd hooke/history" in out, out)
     for fraction, noted in ((0.1, False), (0.3, True)):
         _, out = convert(folder, MATERIAL + PACK.format("", "").replace("particles_in_region 9", f"volumefraction_region {fraction}"))
         fact(f"grains that may find no place at {fraction} are noted", ("gives up on grains" in out) == noted, out)

@@ -142,6 +142,10 @@ class Model:
             return any(c.get(name, c.i, c.j) != 0 for name in ("gamman", "gammat"))
         return c.beta() > 0
 
+    def drags(self, c):
+        """Whether a contact has a dashpot across its normal."""
+        return c.get("gammat", c.i, c.j) > 0 if "stiffness" in self.normal else c.beta() > 0
+
     def drop_zeros(self, contacts):
         """Takes out rolling friction and cohesion whose coefficients are 0 in all contacts: they have no torque, no force. Where one has
         some, each needs its words, as a law of a mesh without them has those of the wall."""

@@ -157,8 +157,8 @@ class Properties:
 
     def note_friction(self, line, model, contacts, exact):
         """`exact`: the friction of LSDCD for LIGGGHTS stands here."""
-        dashpot = model.tangential == "history" and model.damped and "stiffness" not in (model.normal or "") and not exact
-        if dashpot and not self.noted_dashpot and any(c.friction() > 0 and c.beta() > 0 for c in contacts):
+        dashpot = model.tangential == "history" and model.damped and not exact
+        if dashpot and not self.noted_dashpot and any(c.friction() > 0 and model.drags(c) for c in contacts):
             self.noted_dashpot = True
             self.note(line, "until the spring has reached mu F, LIGGGHTS adds the dashpot to it, here the sum ends at mu F: doc/from-liggghts.md, "
                       "Traps")
