@@ -954,6 +954,10 @@ def test_rolling_and_cohesion(folder):
             "hertz tangential history", f"hertz tangential history rolling_friction {rolling}") + (MOVE.format(motion) if motion else ""))
         fact(f"rolling {rolling} at a mesh with {spin}{motion}", ("NOTE in.there:15: rolling friction at cad, which turns: LIGGGHTS brakes the "
              "spin of the grain" in out) == noted and "LEFT" not in out.split("\n", 1)[1], out)
+    for rolling, k, noted in (("cdt", 5, True), ("cdt", 2, False), ("off", 5, False)):
+        _, out = convert(folder, EXTRA.format(0, "hertz", "") + WALL.replace("hertz tangential history", f"hertz tangential history rolling_friction {rolling}") +
+                         f"thermo_style custom step f_cad[{k}]\n")
+        fact(f"rolling {rolling} and f_cad[{k}]", ("NOTE in.there:15: the torque on cad has the couple of the rolling friction here" in out) == noted, out)
     two = (TWO_TYPES + "fix r all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.2 0.2 0.3\ncreate_atoms 1 single 0 0 0\ncreate_atoms 2 single 1 0 0\n"
            "pair_style gran model hertz tangential history rolling_friction epsd2\npair_coeff * *\n")
     _, out = convert(folder, two)

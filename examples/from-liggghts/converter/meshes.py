@@ -97,8 +97,11 @@ class Mesh:
 
     def turns(self, script):
         """Whether the mesh, or its surface, ever has an angular velocity."""
-        return (self.id in script.turning or self.spins or bool(self.body and "joint slider" not in self.body) or
-                bool(self.servo and self.servo.startswith("servo torque")))
+        return (self.id in script.turning or self.spins or self.has_torque_servo() or
+                bool(self.body and "joint slider" not in self.body))
+
+    def has_torque_servo(self):
+        return bool(self.servo and self.servo.startswith("servo torque"))
 
     def leave_out(self, script):
         """Leaves out the triangles that a list names: the mesh becomes another file."""

@@ -152,10 +152,20 @@ class Walls:
             self.note(line, "store_force: the keyword contacts has the forces")
 
     def note_rolling(self, line, model, meshes):
-        turning = [mesh.id for mesh in meshes if mesh.turns(self)] if model.rolling else []
+        if not model.rolling:
+            return
+        turning = [mesh.id for mesh in meshes if mesh.turns(self)]
         if turning:
             self.note(line, f"rolling friction at {', '.join(turning)}, which turn{'s' * (len(turning) == 1)}: LIGGGHTS brakes the spin of the grain, "
                       "here it is the spin against that of the mesh: doc/from-liggghts.md, Traps")
+        turned = [mesh.id for mesh in meshes if mesh.body or mesh.has_torque_servo() or self.names_torque(mesh)]
+        if turned:
+            self.note(line, f"the torque on {', '.join(turned)} has the couple of the rolling friction here, LIGGGHTS leaves it out: "
+                      "doc/from-liggghts.md, Traps")
+
+    def names_torque(self, mesh):
+        """Whether a line names a torque on a mesh."""
+        return any(re.search(rf"f_{mesh.id}\[[456]\]", line.text) for line in self.lines)
 
     def wear(self, line, meshes):
         worn = [m for m in meshes if m.wear]
@@ -180,8 +190,7 @@ class Walls:
         moved = " move " + " ".join(way) if any(mesh.way) else ""
         words = f"mesh {mesh.file}{mesh.placement()}{moved}{moves}" + "".join(f" {x}" for x in mesh.words)
         moving = mesh.id in self.used or mesh.servo or mesh.body
-        torque = any(re.search(rf"f_{mesh.id}\[[456]\]", line.text) for line in self.lines)
-        if mesh.reference or (moving and torque):
+        if mesh.reference or (moving and self.names_torque(mesh)):
             # The point of the torque moves with the mesh in LIGGGHTS.
             about = mesh.reference or (mesh.com if mesh.body else "000")
             if moved:
