@@ -224,6 +224,7 @@ LEFT = {
     "riggle and a motion around it": (
         ON_MESH + MOVE.format("linear 1 0 0") + THEN.format("riggle origin 0 0 0 axis 0 0 1 period 1 amplitude 5"),
         "riggle beside another motion"),
+    "discs": (MATERIAL + "dimension 2\n", "dimension 2: the grains of LIGGGHTS are discs there"),
     "a body whose contacts are damped": (BODY.format("") + WALL, "contacts of cad that are damped"),
     "a body whose contacts are damped by numbers": (
         "".join(f"fix n{k} all property/global {name} peratomtypepair 1 {v}\n"
@@ -332,6 +333,8 @@ WRITTEN.update({
         GRAINS + "fix d all particledistribution/discrete/numberbased 3 2 p1 0.25 p2 0.75\n"
         "fix i all insert/rate/region seed 7 distributiontemplate d nparticles 90 massrate 0.1 insert_every 1000 region r\n",
         "diam poly 2 0.004 0.25 0.008 0.75 dens"),
+    "a temperature keeps its degrees of freedom": (
+        ONE + FILL + "particles_in_region 90 region r\nthermo_style custom step temp\n", "compute_modify  thermo_temp dynamic/dof yes\n"),
     "ke counts grains that come": (ONE + FILL + "particles_in_region 90 region r\n", "compute_modify  thermo_temp extra/dof 0 dynamic/dof yes\n"),
     "degrees of freedom by the names that every LAMMPS knows": (
         "compute t all ke\ncompute_modify t dynamic yes extra 3\n", "compute_modify t dynamic/dof yes extra/dof 3\n"),

@@ -65,7 +65,7 @@ class Dumps:
             self.left.append(f"{self.at(line)}: {why}; do: {do}")
             return f"# LEFT {self.left[-1]}\n" + "\n".join("# " + t for t in line.text.splitlines())
         gone = " ".join(x for x in w[6:] if x in GONE_FIELDS) if "stl" not in w[3] else ""
-        return f"# dump {w[1]}: see {'mesh_stl' if 'stl' in w[3] else 'mesh_fields'} of the wall" + (
+        return f"# dump {w[1]}: see {'mesh_stl' if 'stl' in w[3] else 'mesh_fields'} of the wall, which writes none where the first run begins" + (
             f"\n# NOTE {self.at(line)}: without {gone}, which is not here" if gone else "")
 
     def dump(self, line):

@@ -269,9 +269,11 @@ class Insertion:
 
     def count_energy(self, more=0):
         """Makes ke right of a single grain, which has no degree of freedom by default, and while grains come. It does not depend on how
-        many there are, while there are some; `more` makes up for those that a fix takes away."""
-        if not any("thermo_temp" in other.words for other in self.lines):
-            self.put(f"compute_modify  thermo_temp extra/dof {-more} dynamic/dof yes")
+        many there are, while there are some; `more` makes up for those that a fix takes away. Temperatures and pressures do."""
+        if any("thermo_temp" in other.words for other in self.lines):
+            return
+        has_others = any(re.search(r"\b(temp|press|p[xyz]{2})\b", other.text) for other in self.lines if other.words[:1] in (["thermo_style"], ["variable"]))
+        self.put("compute_modify  thermo_temp " + f"extra/dof {-more} " * (not has_others) + "dynamic/dof yes")
 
     def make(self, bounds):
         """Grains that are made at once. A pack that stands before them and inserts after them counts them."""

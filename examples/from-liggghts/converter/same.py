@@ -29,7 +29,7 @@ COMMANDS = {
     "create_box": "COUNT NAME",
     "delete_atoms": ["group|region NAME [compress YES] [mol YES]", "overlap NUMBER NAME NAME [compress YES] [mol YES]"],
     "dielectric": "NUMBER",
-    "dimension": "2|3",
+    "dimension": "3",
     "displace_atoms": [f"NAME move VALUE VALUE VALUE {UNITS}", f"NAME ramp x|y|z NUMBER NUMBER x|y|z NUMBER NUMBER {UNITS}",
                        f"NAME random NUMBER NUMBER NUMBER COUNT {UNITS}", f"NAME rotate NUMBER NUMBER NUMBER NUMBER NUMBER NUMBER NUMBER {UNITS}"],
     "echo": "none|screen|log|both",

@@ -448,6 +448,9 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
         elif w[0] == "dump_modify":
             self.read(line, "dump_modify", DUMP_MODIFY)
             self.pass_on(line)
+        elif w[0] == "dimension" and self.known(w[1], line) != 3:
+            raise Left(f"dimension {w[1]}: the grains of LIGGGHTS are discs there, with the mass pi R^2 density and half of m R^2 as moment of inertia",
+                       "a layer of spheres in three dimensions; or set ... density/disc, fix nve/sphere disc, and laws for these masses")
         elif w[0] not in COMMANDS:
             raise Left(f"the command {w[0]}", "see the manual of LAMMPS, or convert the file that it names by itself")
         else:
