@@ -224,6 +224,11 @@ LEFT = {
     "riggle and a motion around it": (
         ON_MESH + MOVE.format("linear 1 0 0") + THEN.format("riggle origin 0 0 0 axis 0 0 1 period 1 amplitude 5"),
         "riggle beside another motion"),
+    "the diameter of grains that came when others had their density": (
+        ONE_GRAIN + SIZE + "create_atoms 2 single 1 0 0\nset type 2 diameter 0.01\n", "set diameter of grains whose density is not known here"),
+    "the diameter of a type without a density": (
+        ONE_GRAIN + "create_atoms 2 single 1 0 0\nset type 1 density 2500\nset type 2 diameter 0.01\n", "set diameter of grains whose density is not known here"),
+    "a time that begins anew": ("variable t equal 2*time\nrun 1\nreset_timestep 0\n", "reset_timestep of a script with time in a variable"),
     "discs": (MATERIAL + "dimension 2\n", "dimension 2: the grains of LIGGGHTS are discs there"),
     "a body whose contacts are damped": (BODY.format("") + WALL, "contacts of cad that are damped"),
     "a body whose contacts are damped by numbers": (
@@ -1164,6 +1169,9 @@ PHYSICS = {
     "energy_of_a_body": (HERTZ, TOUCHING + "create_atoms 1 single 0.1 0.1 0.1 units box\nset group all diameter 0.02 density 2500\n"
                          "velocity all set 2 0 0 units box\ngroup a id 1 2\nfix r a rigid single\nunfix i\ngroup b id 3\nfix i b nve/sphere\n"
                          "variable e equal ke\nthermo_style custom step ke\nrun 2\n", "${e}", [(6 * MASS - 1e-9, 6 * MASS + 1e-9)]),
+    # The density of a type is that of all grains that have it: the mass of one of the diameter 0.02 and one of half of it.
+    "densities": (HERTZ, TOUCHING.split("set")[0] + "set type 1 density 2500\nset group all diameter 0.02\nset atom 2 diameter 0.01\nvariable m equal mass(all)\nrun 0\n",
+                  "${m}", [(1.125 * MASS - 1e-9, 1.125 * MASS + 1e-9)]),
     # A contact of the grains of the mesh's group only, and of all where the wall alone has a group.
     "groups": (HERTZ, "".join(f"create_atoms 1 single {x} 0 0.0105 units box\n" for x in (0, 0.1, 0.2)) + "set group all density 2500\n"
                "set group all diameter 0.02\ngroup a id 1\ngroup b id 2\nvelocity all set 0 0 -1 units box\n"

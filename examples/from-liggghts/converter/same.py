@@ -198,6 +198,7 @@ class Same:
                 self.step = int(self.number(w[1], line))
             except Left:
                 self.step = None
+            self.check_time(line)
         elif w[0] in ("jump", "if", "label", "next", "minimize", "read_dump"):
             self.step = None
         elif w[0] == "unfix":
@@ -206,13 +207,25 @@ class Same:
         self.follow_box(line)
         if w[0] in ("read_data", "read_dump", "replicate"):
             self.make(None)
+            self.densities.update({w[0]: None} if w[0] != "replicate" else {})
         elif w[0] == "create_atoms":
             bounds = [(self.known(x, line),) * 2 for x in w[3:6]] if w[2] == "single" and self.units == "box" else \
                 (self.region(w[3]) or [None])[-1] if w[2] == "region" else None
             self.make(bounds)
+            self.densities.pop("created", None)
+            self.densities["created"] = "1"    # in both
         single = w[0] == "create_atoms" and w[2] == "single" and not line.loops and sum(x.words[:1] == w[:1] for x in self.lines) == 1
         if single or (w[0] == "read_data" and len(self.data_sizes[line]) == 1):
             self.count_energy()
+
+    def check_time(self, line):
+        """Raises Left for reset_timestep where a variable hangs on the time, which is the step times the timestep behind it in LIGGGHTS; in LAMMPS the
+        time goes on."""
+        named = {x.words[0] for x in self.lines if any(re.search(r"(?<![\w${])time\b", text) for text in x.words[3 if x.words[:1] == ["variable"] else 1:])}
+        if "variable" in named:
+            raise Left("reset_timestep of a script with time in a variable: it begins anew in LIGGGHTS, and goes on here", "step*dt in place of time")
+        if "thermo_style" in named or "print" in named:
+            self.note(line, "the time that is printed goes on, in LIGGGHTS it is the step times the timestep from here on")
 
     def follow_box(self, line):
         """Keeps regions, edges of the box, and whether these move."""
@@ -273,12 +286,14 @@ class Same:
         w, words = line.words, list(values)
         chosen = " ".join(w[1:3])
         if "density" in values:
-            if chosen == "group all":
+            if chosen == "group all" or (w[1] == "type" and not self.all_types and self.grain_types == {self.known(w[2], line)}):
                 self.densities.clear()
             self.densities.pop(chosen, None)    # the last one is that of the last command
             kept = []
             density = self.carry(values["density"][0], line, kept)
             self.densities[chosen] = None if line.skips or kept else density
+            if not self.all_types and all(f"type {kind}" in self.densities for kind in self.grain_types):
+                self.densities.pop("created", None)
         if "diameter" not in values:
             return text
         if "mass" in values and words.index("mass") < words.index("diameter"):
@@ -292,8 +307,6 @@ class Same:
                 density = self.densities[chosen]
             elif len(found) == 1 and None not in found:
                 density = found.pop()
-            elif not found and not self.all_types and all(other.words[:1] != ["read_data"] for other in self.lines):
-                density = "1"    # of create_atoms in both
             else:
                 raise Left("set diameter of grains whose density is not known here: LIGGGHTS keeps it, LAMMPS the mass",
                            "set ... diameter D density RHO")

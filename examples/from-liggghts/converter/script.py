@@ -67,7 +67,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
         self.per_atom = set()    # c_ID, f_ID of what has values of atoms
         self.rows = {}    # of computes of contacts: style, what stands for each column, its word
         self.named, self.named_flows = {}, {}    # outputs that lines have taken, of meshes and of other fixes
-        self.densities = {}    # of set and insertions: of the groups or regions, the last one at the end; None: not known
+        self.densities = {}    # of set, insertions and create_atoms: of the groups or regions, the last one at the end; None: not known
         self.step, self.timestep, self.sources = 0, None, []    # here, None where it is not known; what has made grains
 
     def at(self, line):
@@ -441,6 +441,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
         elif w[0] == "read_restart":
             self.step = None
             self.make(None)
+            self.densities[w[0]] = None
             if not self.options.converted_restart:
                 raise Left("a restart file, which LIGGGHTS writes in another format", "write_data there and read_data here; where "
                            "a converted script has written the file, convert with --converted-restart")
