@@ -51,21 +51,9 @@ struct BookPairs {
   {
     const int i = s.list.grain[k], j = with & s.list.mask, law = s.law(i, j);
     if (s.kind_of[law] != s.kind) return false;
-    GrainPair p = {};
-    p.offset = s.x[i] - s.x[j];
-    p.distance_sq = norm_sq(p.offset);
-    p.velocity = s.v[i] - s.v[j];
-    p.omega_i = s.omega[i];
-    p.omega_j = s.omega[j];
-    p.radius_i = s.radius[i];
-    p.radius_j = s.radius[j];
-    p.mass_i = s.mass[i];
-    p.mass_j = s.mass[j];
-    p.mass = reduced_mass(s, i, j, p.mass_i, p.mass_j);
-    p.dt = s.dt;
-    p.update = s.update;
     EnergyRows of;
-    book_pair(s.laws[law].template in_kernel<Law>(), p, old, now, s.width, of);
+    book_pair(s.laws[law].template in_kernel<Law>(), grain_pair(s, i, j, s.update), old, now,
+              s.width, of);
     const bool whole = !s.list.full && (s.both_sides || j < s.n_own);
     const Real share = (whole ? 1 : 0.5) * s.factor[with >> s.list.factor_shift & 3];
     for (int row = 0; row < kEnergyRows; row++) sum.of[row] += share * of.of[row];

@@ -4,6 +4,7 @@
 // What a step of pairs reads and writes.
 #pragma once
 
+#include "base/strided_view.h"
 #include "base/vec3.h"
 #include "engine/results/step_results.h"
 #include "engine/step/compiled_law.h"
@@ -178,6 +179,10 @@ LSDCD_FN Vec3 vec_of(const Real *all, int i)
 {
   return {all[3 * i], all[3 * i + 1], all[3 * i + 2]};
 }
+LSDCD_FN Vec3 vec_of(const StridedView<const Real> &all, int i)
+{
+  return all[i];
+}
 
 // The reduced mass of a grain and one that does not move is that of the first. Job: with `mask` and `frozen` as in PairJob.
 template <class Job>
@@ -190,8 +195,9 @@ LSDCD_FN Real reduced_mass(const Job &job, int i, int j, Real mass_i, Real mass_
   return mass_i * mass_j / (mass_i + mass_j);
 }
 
-// Grains i and j of a job.
-inline GrainPair grain_pair(const PairJob &job, int i, int j, bool update)
+// Returns grains i and j of a PairJob, or of a PairInput.
+template <class Job>
+LSDCD_FN GrainPair grain_pair(const Job &job, int i, int j, bool update)
 {
   GrainPair p = {};
   p.offset = vec_of(job.x, i) - vec_of(job.x, j);
