@@ -27,7 +27,8 @@ using DeviceSpace = FixMassflowLsdcdKokkos::DeviceSpace;
 using Candidate = FixMassflowLsdcdKokkos::Candidate;
 
 constexpr int kRow = FixMassflowLsdcdKokkos::kRow;
-constexpr std::size_t kLeastRoom = 4096;    // for candidates
+// For candidates, 8 MB: where few atoms are near none of them is waited for before LAMMPS reneighbours.
+constexpr std::size_t kLeastRoom = 65536;
 constexpr std::uint64_t kReadOfAtoms =
     X_MASK | V_MASK | RMASS_MASK | RADIUS_MASK | TAG_MASK | TYPE_MASK | MASK_MASK;
 
@@ -266,7 +267,7 @@ void FixMassflowLsdcdKokkos::delete_on_device()
   for_each(before, FindToDelete{flags.view_device().data(), near.data(), counts.data()});
   int seen[2];
   read_counts(seen);
-  Kokkos::deep_copy(counts, 0);
+  clear_counts();
   const int n = seen[0], after = before - n;
   double mass = 0;
   if (n > 0) {
@@ -396,6 +397,12 @@ void FixMassflowLsdcdKokkos::read_counts(int (&to)[2]) const
                     counts);
 }
 
+// Behind the kernels, without waiting.
+void FixMassflowLsdcdKokkos::clear_counts()
+{
+  Kokkos::deep_copy(DeviceSpace(), counts, 0);
+}
+
 void FixMassflowLsdcdKokkos::settle()
 {
   if (most_found == 0) return;
@@ -428,7 +435,7 @@ void FixMassflowLsdcdKokkos::count_found(int n)
     if (now != was) changed[c.i] = now & (kCounted | kToDelete);
     may_delete = may_delete || (now & kToDelete);
   }
-  Kokkos::deep_copy(counts, 0);
+  clear_counts();
   most_found = 0;
   if (changed.empty()) return;
   std::vector<int> of;

@@ -84,6 +84,7 @@ class FixMassflowLsdcdKokkos : public FixMassflowLsdcd, public KokkosBase {
   void change_on_device();
   void run_kernel(const int *of, int n);
   void read_counts(int (&)[2]) const;
+  void clear_counts();
   void count_found(int);
   bool deletes_on_device() const;
   void delete_on_device();
