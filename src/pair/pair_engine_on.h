@@ -25,7 +25,13 @@ class PairEngineOn : public PairEngine {
   static constexpr unsigned kStep = B::kOnCpu ? 1 : kGpuPairStep;
 
  public:
-  explicit PairEngineOn(B backend) : b_(std::move(backend)), n_pairs_(1), seen_(1) {}
+  // `most_bytes`: where what all pairs of a list would keep takes no more, a step has room for it and need not wait until it is known
+  // how many touch: one of few grains takes no longer on a GPU than to start it.
+  explicit PairEngineOn(B backend, std::size_t most_bytes = std::size_t(256) << 20) :
+      b_(std::move(backend)), most_bytes_(most_bytes), n_pairs_(2), places_(1), seen_(1)
+  {
+    put_all(b_, n_pairs_.data(), n_pairs_.size(), 0);
+  }
 
   void set_laws(const PairLaws &given) override
   {
@@ -84,7 +90,8 @@ class PairEngineOn : public PairEngine {
     if (width_ > 0 && has_last_) s.old = last.view(width_);
     s.width = width_;
     s.step = kStep;
-    s.n_pairs = n_pairs_.data();
+    s.n_pairs = n_pairs_.data() + turn_;
+    s.n_pairs_next = n_pairs_.data() + 1 - turn_;
     s.laws = bytes_.data();
     s.n_laws = static_cast<int>(laws_.size());
     s.law_of = law_of_.data();
@@ -99,20 +106,28 @@ class PairEngineOn : public PairEngine {
       s.sums = sums_.data();
       sums_n_ = step.n_all;
     }
-    if (rows > 0) find(s, rows);
-    if (width_ > 0) {
-      // The pairs are started before it is known whether there is room, and a GPU need not wait for the CPU.
-      if (rows > 0) add(s, next);
-      counted_.wait();
-      places_ = rows > 0 ? *seen_.data() : 0;
-      if (places_ > next.room(width_)) {
-        next.reserve(places_, width_);
-        add(s, next);
+    if (rows > 0) {
+      if (fits_all(most_places_)) make_room(next, most_places_);
+      find(s, rows);
+      const bool may_not_fit = width_ > 0 && next.room(width_) < most_places_;
+      if (may_not_fit) {
+        b_.copy_out(s.n_pairs, seen_.data(), 1);
+        counted_.record(b_);
       }
+      // The pairs are started before it is known whether there is room, and a GPU need not wait for the CPU.
+      add(s, next);
+      if (may_not_fit) {
+        counted_.wait();
+        const std::size_t places = *seen_.data();
+        if (places > next.room(width_)) {
+          next.reserve(places, width_);
+          add(s, next);
+        }
+      }
+    }
+    if (width_ > 0) {
       now_ = 1 - now_;
       has_last_ = true;
-    } else if (rows > 0) {
-      add(s, next);
     }
     if (sums) add_up(step.both_sides ? step.n_all : step.n_own, sums);
     if (!books_.empty()) last_step_ = s;
@@ -151,6 +166,7 @@ class PairEngineOn : public PairEngine {
   void collect(const PairRows &list, const GrainNames &name, const int *type, int n) override
   {
     const std::size_t rows = list.rows;
+    most_places_ = kUnknown;
     grow(n);
     Pool &to = pool_[1 - now_];
     put_all(b_, count_.data(), count_.size(), 0);
@@ -182,9 +198,13 @@ class PairEngineOn : public PairEngine {
     const int words = words_of_row(list);
     to.reserve_rows(rows, words, true);
     if (rows > 0) {
-      put_one(b_, n_pairs_.data(), 0);
-      b_.for_each_in_warps(rows, TakePlaces{list, count_.data(), n_pairs_.data(), to.first.data()});
-      to.reserve(read_one(b_, n_pairs_.data()), width_);
+      put_one(b_, places_.data(), PlaceCounts{0, 0});
+      b_.for_each_in_warps(rows, TakePlaces{list, count_.data(), places_.data(), to.first.data()});
+      const PlaceCounts places = read_one(b_, places_.data());
+      most_places_ = places.most;
+      // In a half list a grain has partners in other rows than its own, too.
+      to.reserve(std::max<std::size_t>(places.taken, fits_all(most_places_) ? most_places_ : 0),
+                 width_);
       b_.for_each(rows, HandOut{list, words, to.view(width_), name, kStep, view()});
     }
     has_last_ = true;
@@ -319,6 +339,18 @@ class PairEngineOn : public PairEngine {
   {
     return std::max(1, (list.longest + kWordBits - 1) / kWordBits);
   }
+  // Is there memory for all pairs of a list in both pools?
+  bool fits_all(std::size_t places) const
+  {
+    return width_ > 0 && places <= most_bytes_ / (2 * sizeof(Real) * width_);
+  }
+  // Makes room in a pool that nothing is kept in, of which kernels may still read.
+  void make_room(Pool &pool, std::size_t places)
+  {
+    if (pool.room(width_) >= places) return;
+    b_.wait();
+    pool.reserve(places, width_);
+  }
   static std::int64_t numbered(std::int64_t n)
   {
     return countable_here(n, "numbers of pairs in one process", "use more processes");
@@ -351,19 +383,17 @@ class PairEngineOn : public PairEngine {
     name_ = Array<Partners::Name>();
     put_all(b_, count_.data(), count_.size(), 0);
     has_last_ = false;
+    most_places_ = kUnknown;
     end_ = 0;
   }
 
   void find(const PairStepView &s, std::size_t rows)
   {
-    if (s.width > 0) put_one(b_, n_pairs_.data(), 0);
+    turn_ = 1 - turn_;
     if (beyond_)
       b_.for_each_in_warps(rows, FindTouching<true>{s});
     else
       b_.for_each_in_warps(rows, FindTouching<false>{s});
-    if (s.width == 0) return;
-    b_.copy_out(n_pairs_.data(), seen_.data(), 1);
-    counted_.record(b_);
   }
 
   void add(PairStepView &s, Pool &to)
@@ -387,6 +417,7 @@ class PairEngineOn : public PairEngine {
   }
 
   B b_;
+  std::size_t most_bytes_;
   std::vector<PairLawOn<B>> laws_, kinds_;    // of all laws; the first of each kind
   Array<LawBytes> bytes_;
   Array<int> kind_of_, law_of_;
@@ -396,12 +427,15 @@ class PairEngineOn : public PairEngine {
   bool beyond_ = false;    // does adhesion act beyond contact?
 
   Pool pool_[2];
-  int now_ = 0;              // the pool that the last step has written
-  bool has_last_ = false;    // is there anything in it?
-  Array<std::uint32_t> n_pairs_;
+  int now_ = 0;                     // the pool that the last step has written
+  bool has_last_ = false;           // is there anything in it?
+  Array<std::uint32_t> n_pairs_;    // of two steps in turn, of which one clears that of the next
+  int turn_ = 0;                    // of the next step
+  static constexpr std::size_t kUnknown = ~std::size_t(0);
+  std::size_t most_places_ = kUnknown;    // for pairs in any step of this list
+  Array<PlaceCounts> places_;
   typename B::template CpuArray<std::uint32_t> seen_;
   typename B::Event counted_;
-  std::size_t places_ = 0;    // for pairs in the last step
   Array<Real> sums_, more_;
   std::size_t sums_n_ = 0;
 

@@ -83,18 +83,27 @@ struct FillPartners {
   }
 };
 
+// Places for what pairs of a list keep: those that are taken, and those that it would take if all its pairs touched.
+struct PlaceCounts {
+  std::uint64_t most;
+  std::uint32_t taken;
+};
+
 // Takes places for as many pairs of a row as its grain has partners.
 struct TakePlaces {
   PairRows list;
   const int *count;    // of partners
-  std::uint32_t *n_pairs;
+  PlaceCounts *places;
   int *first;
 
   template <class W>
   LSDCD_FN void operator()(const W &warp, bool mine, std::size_t k) const
   {
-    take_places(warp, mine, k, mine ? static_cast<unsigned>(count[list.grain[k]]) : 0, n_pairs,
-                first);
+    const int i = mine ? list.grain[k] : 0;
+    take_places(warp, mine, k, mine ? static_cast<unsigned>(count[i]) : 0, &places->taken, first);
+    const unsigned most =
+        places_side_by_side(warp, mine ? static_cast<unsigned>(list.length[i]) : 0);
+    if (warp.rank() % kSide<W> == 0) add_to(&places->most, most);
   }
 };
 

@@ -34,8 +34,9 @@ struct PairStepView : PairInput {
   int words = 0;    // of a row
   TouchingPairs now, old;
   int width = 0;
-  unsigned step = 1;                   // see kGpuPairStep
-  std::uint32_t *n_pairs = nullptr;    // where places for pairs are counted
+  unsigned step = 1;    // see kGpuPairStep
+  std::uint32_t *n_pairs = nullptr,
+                *n_pairs_next = nullptr;    // where this step counts places, and the next one
   const LawBytes *laws = nullptr;
   int n_laws = 0;
   const int *law_of = nullptr;
@@ -71,18 +72,28 @@ LSDCD_FN void add_shared(const StridedView<Real> &to, int i, const Vec3 &a, bool
   for (int k = 0; k < 3; k++) add_shared(at + k * to.column, a[k], alone);
 }
 
+// How many rows lie side by side.
+template <class W>
+constexpr unsigned kSide = W::kSize == 1 ? 1 : kGpuPairStep;
+
+// Returns how many places rows side by side take, of which this one has `count` pairs. All threads of a warp together.
+template <class W>
+LSDCD_FN unsigned places_side_by_side(const W &warp, unsigned count)
+{
+  for (unsigned apart = 1; apart < kSide<W>; apart *= 2) {
+    const unsigned other = warp.of_other(count, apart);
+    if (other > count) count = other;
+  }
+  return kSide<W> * count;
+}
+
 // Takes places for what a row's `count` pairs keep. All threads of a warp together.
 template <class W>
 LSDCD_FN void take_places(const W &warp, bool mine, std::size_t row, unsigned count,
                           std::uint32_t *n_pairs, int *first)
 {
-  constexpr unsigned kSide = W::kSize == 1 ? 1 : kGpuPairStep;
-  for (unsigned apart = 1; apart < kSide; apart *= 2) {
-    const unsigned other = warp.of_other(count, apart);
-    if (other > count) count = other;
-  }
-  const unsigned room = kSide * count;    // of rows side by side
-  unsigned end = warp.rank() % kSide == 0 ? room : 0;
+  const unsigned room = places_side_by_side(warp, count);
+  unsigned end = warp.rank() % kSide<W> == 0 ? room : 0;
   for (unsigned apart = 1; apart < W::kSize; apart *= 2) {
     const unsigned below = warp.from_below(end, apart);
     if (warp.rank() >= apart) end += below;
@@ -90,7 +101,7 @@ LSDCD_FN void take_places(const W &warp, bool mine, std::size_t row, unsigned co
   unsigned begin = 0;
   if (warp.rank() == W::kSize - 1 && end > 0) begin = fetch_add(n_pairs, end);
   begin = warp.of(begin, W::kSize - 1);
-  if (mine) first[row] = static_cast<int>(begin + end - room + warp.rank() % kSide);
+  if (mine) first[row] = static_cast<int>(begin + end - room + warp.rank() % kSide<W>);
 }
 
 // Finds the pairs that touch, and places for what they keep. kBeyond: adhesion may hold pairs beyond contact.
@@ -103,6 +114,7 @@ struct FindTouching {
   {
     unsigned count = 0;
     if (mine) {
+      if (k == 0) *s.n_pairs_next = 0;
       const int i = s.list.grain[k], n = s.list.length[i];
       const Vec3 x = s.x[i];
       const Real radius = s.radius[i];
