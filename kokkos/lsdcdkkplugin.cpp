@@ -3,6 +3,7 @@
 
 // Registers the styles of this library, and their forms for Kokkos, with the Kokkos LAMMPS that loads this file.
 
+#include "fix_gravity_lsdcd_kokkos.h"
 #include "fix_insert_lsdcd_kokkos.h"
 #include "fix_massflow_lsdcd_kokkos.h"
 #include "fix_springs_lsdcd_kokkos.h"
@@ -79,6 +80,9 @@ extern "C" __attribute__((visibility("default"))) void lsdcd_add_styles(void *lm
   add("insert/lsdcd/kk", create_fix<GuardedFix<FixInsertLsdcdKokkos>>);
   add("insert/lsdcd/kk/device", create_fix<GuardedFix<FixInsertLsdcdKokkos>>);
   add("insert/lsdcd/kk/host", create_fix<GuardedFix<FixInsertLsdcdKokkos>>);
+  add("gravity/lsdcd/kk", create_fix<FixGravityLsdcdKokkos<LMPDeviceType>>);
+  add("gravity/lsdcd/kk/device", create_fix<FixGravityLsdcdKokkos<LMPDeviceType>>);
+  add("gravity/lsdcd/kk/host", create_fix<FixGravityLsdcdKokkos<LMPHostType>>);
 
   // The pair style asks for these by their whole names.
   add("SPRINGS/LSDCD/KK/DEVICE",

@@ -13,6 +13,7 @@
 #include "lammps/region_mesh_lsdcd.h"
 
 #include "lammps.h"
+#include "modify.h"
 
 namespace lsdcd {
 
@@ -30,6 +31,13 @@ lammpsplugin_t described(const char *kind, void *lmp, void *handle, const char *
   plugin.author = "the LSDCD authors";
   plugin.handle = handle;
   return plugin;
+}
+
+// LAMMPS's own: Debian has no header of it.
+void *create_gravity(void *lmp, int narg, char **arg)
+{
+  auto *const host = static_cast<LAMMPS_NS::LAMMPS *>(lmp);
+  return (*host->modify->fix_map)["gravity"](host, narg, arg);
 }
 
 }    // namespace
@@ -61,6 +69,9 @@ void add_plain_styles(void *lmp, void *handle, void *regfunc)
   add_style("fix", lmp, handle, regfunc, "insert/lsdcd",
             "fix insert/lsdcd: grains through a flat mesh or into a region",
             create_fix<GuardedFix<FixInsertLsdcd>>);
+  add_style("fix", lmp, handle, regfunc, "gravity/lsdcd",
+            "fix gravity/lsdcd: fix gravity under the name of its form for Kokkos",
+            create_gravity);
   add_style("fix", lmp, handle, regfunc, "SPRINGS/LSDCD",
             "fix SPRINGS/LSDCD: what pairs of granular/lsdcd keep",
             create_fix<GuardedFix<FixSpringsLsdcd>>);

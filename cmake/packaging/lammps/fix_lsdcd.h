@@ -4,6 +4,7 @@
 // For LAMMPS's list of styles: LSDCD.cmake.
 #ifdef FIX_CLASS
 // clang-format off
+FixStyle(gravity/lsdcd,FixGravity);
 FixStyle(insert/lsdcd,GuardedFix<FixInsertLsdcd>);
 FixStyle(massflow/lsdcd,GuardedFix<FixMassflowLsdcd>);
 FixStyle(SPRINGS/LSDCD,GuardedFix<FixSpringsLsdcd>);
@@ -15,4 +16,6 @@ FixStyle(wall/lsdcd,GuardedFix<FixWallLsdcd>);
 #include "lammps/fix_springs_lsdcd.h"
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/guarded_styles.h"
+
+#include "fix_gravity.h"
 #endif

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// fix gravity/lsdcd/kk: LAMMPS's fix gravity on a Kokkos device. It computes the potential energy when something asks for it:
+// fix gravity/kk adds it up in each step, and makes the CPU wait for it.
+#ifndef LMP_FIX_GRAVITY_LSDCD_KOKKOS_H
+#define LMP_FIX_GRAVITY_LSDCD_KOKKOS_H
+
+#include "host_kokkos.h"
+
+#include "fix_gravity.h"
+
+namespace LAMMPS_NS {
+
+template <class DeviceType>
+class FixGravityLsdcdKokkos : public FixGravity {
+ public:
+  FixGravityLsdcdKokkos(class LAMMPS *, int narg, char **arg);
+
+  void setup(int) override;
+  void post_force(int) override;
+  double compute_scalar() override;
+
+  // For lambdas of nvcc, which must not be in a private function.
+  void add_forces(double x, double y, double z);
+  double own_energy() const;
+
+ private:
+  AtomKokkos *atomKK;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
