@@ -143,14 +143,17 @@ class PairEngineOn : public PairEngine {
     energy_.reserve(n);
     is_booked_.reserve(n);
     EnergyRows *const energy = energy_.data();
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { energy[k] = EnergyRows(); });
-    put_all(b_, is_booked_.data(), n, 0);
+    char *const is_booked = is_booked_.data();
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      energy[k] = EnergyRows();
+      is_booked[k] = 0;
+    });
     for (std::size_t kind = 0; kind < books_.size(); kind++) {
       s.kind = static_cast<int>(kind);
-      books_[kind].run(s, energy, is_booked_.data(), b_);
+      books_[kind].run(s, energy, is_booked, b_);
     }
     EnergyRows sum;
-    energy_sums_.sum(b_, {n, energy, is_booked_.data(), nullptr}, 1, &sum);
+    energy_sums_.sum(b_, {n, energy, is_booked, nullptr}, 1, &sum);
     for (int row = 0; row < kEnergyRows; row++) rows.of[row] += sum.of[row];
   }
 
