@@ -89,7 +89,8 @@ class FeatureListStore {
     if (B::kOnCpu || grid.list_kind.has_primitives()) return 0;
     const std::size_t room = std::min(multi_contact_.size(), ints_.size() / FeatureLists::kInts);
     set_view(grid);
-    b.for_each_in_warps(room, gather(grid, pose, spheres, margin, counts), &counts->n_candidates);
+    b.for_each_in_warps(room, gather_work(grid, pose, spheres, margin, counts),
+                        &counts->n_candidates);
     return room;
   }
   // Makes the lists of spheres.n candidates, but for the first `early`, which have them.
@@ -100,7 +101,7 @@ class FeatureListStore {
     if (!reserve(grid, grid.is_large, n) || n <= early) return;
     if (grid.list_kind.is_every()) return leave_out(b, n, nullptr, nullptr);
     if (!B::kOnCpu) multi_contact_.reserve(n);
-    b.for_each_in_warps(n, gather(grid, pose, spheres, margin, counts));
+    b.for_each_in_warps(n, gather_work(grid, pose, spheres, margin, counts));
   }
   // The same for n slots of more than one mesh; `large`: is any of them?
   void make(B &b, const GridView &first_grid, bool large, const PosedGrid *meshes, const int *mesh,
@@ -129,8 +130,8 @@ class FeatureListStore {
     b.for_each(n, LeaveOut{meshes, mesh, lists_.lengths});
   }
 
-  GatherWork gather(const GridView &grid, const Pose &pose, const CandidateSpheres &spheres,
-                    Real margin, StepCounts *counts)
+  GatherWork gather_work(const GridView &grid, const Pose &pose, const CandidateSpheres &spheres,
+                         Real margin, StepCounts *counts)
   {
     return {grid, pose, spheres, margin, lists_, multi_contact_.data(), counts};
   }
