@@ -214,7 +214,7 @@ void FixSpringsLsdcd::post_run()
 void FixSpringsLsdcd::setup_pre_exchange()
 {
   if (watch.sees_snapshot(*update)) forget();
-  const bool stays_between_runs = between_runs && update->whichflag == 0;
+  const bool stays_between_runs = between_runs && update->setupflag == 0;
   pre_exchange();
   between_runs = stays_between_runs;
 }

@@ -9,7 +9,8 @@ using namespace LAMMPS_NS;
 
 static constexpr int kDynamics = 1;
 
-// Commands between runs initialise fixes and set up exchanges, too: outside of a run, or with the steps of the last one.
+// Commands between runs, and between the parts of 'run N every M', initialise fixes and set up exchanges, too: outside of a run, or with
+// the steps of the last one.
 void RerunWatch::init(const Update &update)
 {
   if (update.whichflag != kDynamics) return;
@@ -26,7 +27,7 @@ bool RerunWatch::may_be_snapshot(const Update &update) const
 
 bool RerunWatch::sees_snapshot(const Update &update)
 {
-  if (update.whichflag != kDynamics) return false;
+  if (update.whichflag != kDynamics || update.setupflag == 0) return false;
   const bool twice = inits > 1;
   inits = 0;
   return twice || update.ntimestep != update.firststep;

@@ -195,6 +195,8 @@ def test_new_ids(folder, newton, ranks):
     at_most("new IDs", lmp.largest_difference(kept, end("yes")), 1e-10)
     write = "write_data {}.data nocoeff\n"
     at_most("write_data", lmp.largest_difference(kept, end("no", write.format("behind"), write.format("before"))), 1e-10)
+    halves = "run 100 every 50 {}\n"
+    at_most("write_data in a run", lmp.largest_difference(end("no", halves.format("NULL")), end("no", halves.format('"write_data part.data nocoeff"'))), 1e-10)
     at_most("write_data and new IDs", lmp.largest_difference(kept, end("yes", first=write.format("before"))), 1e-10)
     at_most("new IDs, and a restart", lmp.largest_difference(kept, end("yes", "write_restart r\nclear\n" + settings(newton) + "read_restart r\n" + law)), 1e-10)
     reset = "reset_atoms id\n" if lmp.version() > 20210929 else "reset_atom_ids\n"
