@@ -40,7 +40,7 @@ def figures(a, program, name, start):
             raise SystemExit(done.stdout[-2000:] + done.stderr[-2000:])
         words = lines[-1].split()[1:]
         return dict(zip(words[::2], map(float, words[1::2])))
-    one = type("Options", (), {"lmp": a.lmp, "work": work})
+    one = type("Options", (), {"lmp": a.lmp, "work": work, "flags": ""})
     return run_script(one, HERE / f"in.{name}", png=0)
 
 
