@@ -39,10 +39,12 @@ std::vector<double> EnergyPlaces::packed() const
   return rows;
 }
 
-void EnergyPlaces::add_packed(const double *rows, std::size_t n_rows)
+void EnergyPlaces::add_packed(const std::vector<double> &rows)
 {
-  for (const double *r = rows; r < rows + n_rows * kPacked; r += kPacked)
+  for (std::size_t k = 0; k + kPacked <= rows.size(); k += kPacked) {
+    const double *const r = rows.data() + k;
     add_part({r[1], r[2], r[3], r[4]}, 1, places_.at(static_cast<FeatureCode>(r[0])));
+  }
 }
 
 std::vector<PlaceEnergy> EnergyPlaces::of_faces(const WeldedMesh &mesh) const

@@ -31,7 +31,7 @@ class EnergyPlaces {
   // Rows of kPacked numbers, by feature; add_packed() adds to what is there.
   static constexpr int kPacked = 5;
   std::vector<double> packed() const;
-  void add_packed(const double *rows, std::size_t n_rows);
+  void add_packed(const std::vector<double> &rows);
 
   // Returns the numbers of every face. The faces that meet at an edge or a vertex share what is dissipated there, and its impacts,
   // evenly; each has the speed of the fastest.

@@ -42,7 +42,7 @@ Real MeshLoads::worn() const
 std::vector<double> MeshLoads::packed() const
 {
   std::vector<double> rows;
-  rows.reserve(loads_.rows().size() * kPackedLoad);
+  rows.reserve(loads_.rows().size() * kPacked);
   loads_.in_order([&](FeatureCode feature, const Load &l) {
     rows.insert(rows.end(), {static_cast<double>(feature), l.normal, l.shear, l.contacts, l.worn,
                              l.force.x, l.force.y, l.force.z});
@@ -50,9 +50,10 @@ std::vector<double> MeshLoads::packed() const
   return rows;
 }
 
-void MeshLoads::add_packed(const double *rows, std::size_t n_rows)
+void MeshLoads::add_packed(const std::vector<double> &rows)
 {
-  for (const double *r = rows; r < rows + n_rows * kPackedLoad; r += kPackedLoad) {
+  for (std::size_t k = 0; k + kPacked <= rows.size(); k += kPacked) {
+    const double *const r = rows.data() + k;
     Load &to = loads_.at(static_cast<FeatureCode>(r[0]));
     to.normal += r[1];
     to.shear += r[2];

@@ -42,10 +42,10 @@ class MeshLoads {
   Real worn() const;    // length^3, in all
   std::size_t bytes() const { return loads_.bytes(); }
 
-  // Rows of kPackedLoad numbers, by feature; add_packed() adds to what is there.
-  static constexpr int kPackedLoad = 8;
+  // Rows of kPacked numbers, by feature; add_packed() adds to what is there.
+  static constexpr int kPacked = 8;
   std::vector<double> packed() const;
-  void add_packed(const double *rows, std::size_t n_rows);
+  void add_packed(const std::vector<double> &rows);
 
   // Returns the load of every face. The faces that meet at an edge or a vertex share its load evenly; the load of an edge
   // or vertex without a face, which only a dropped triangle leaves behind, is not in.

@@ -97,13 +97,10 @@ TEST(loads, packed_and_added_up_are_those_of_all)
   const StepContact b[] = {on(FeatureKind::vertex, 3, 7, 8, 9), on(FeatureKind::edge, 3, 1, 1, 1)};
   one.add(a, 2, 0.5, 1);
   two.add(b, 2, 0.5, 1);
-  for (const MeshLoads *part : {&one, &two}) {
-    const std::vector<double> rows = part->packed();
-    sum.add_packed(rows.data(), rows.size() / MeshLoads::kPackedLoad);
-  }
+  for (const MeshLoads *part : {&one, &two}) sum.add_packed(part->packed());
   one.add(b, 2, 0.5, 1);
   EXPECT_EQ(sum.packed(), one.packed());
-  EXPECT_EQ(sum.packed().size(), 3u * MeshLoads::kPackedLoad);
+  EXPECT_EQ(sum.packed().size(), 3u * MeshLoads::kPacked);
 }
 
 // The text between > and < of the array with that name, decoded.

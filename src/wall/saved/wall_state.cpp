@@ -261,7 +261,7 @@ WallState WallState::from(const State &state)
     if (!s.vertices.empty() &&
         (s.vertices.size() != 3 * n || s.pending.size() != 4 * n || s.held.size() != n))
       throw StateError("the worn shape in the data of the wall is not that of the mesh's vertices");
-    if (m.loads.rows.size() % MeshLoads::kPackedLoad != 0)
+    if (m.loads.rows.size() % MeshLoads::kPacked != 0)
       throw StateError("the loads in the data of the wall are no whole rows");
     if (m.energy_places.size() % EnergyPlaces::kPacked != 0)
       throw StateError("the energies in the data of the wall are no whole rows");

@@ -16,9 +16,8 @@ EnergyRecorder::OfMesh &EnergyRecorder::taken(int mesh)
 {
   OfMesh &m = meshes_[static_cast<std::size_t>(mesh)];
   if (!engine_) return m;
-  const std::vector<Real> rows = engine_->take(mesh);
   static_assert(EnergyEngine::kRow == EnergyPlaces::kPacked);
-  m.places.add_packed(rows.data(), rows.size() / EnergyPlaces::kPacked);
+  m.places.add_packed(engine_->take(mesh));
   m.spectrum.add(engine_->take_bins(mesh));
   return m;
 }
@@ -52,8 +51,7 @@ EnergyPlaces EnergyRecorder::gathered(int mesh)
 {
   EnergyPlaces all;
   if (meshes_.empty()) return all;
-  const std::vector<Real> rows = host_.gather(taken(mesh).places.packed());
-  all.add_packed(rows.data(), rows.size() / EnergyPlaces::kPacked);
+  all.add_packed(host_.gather(taken(mesh).places.packed()));
   return all;
 }
 
@@ -64,7 +62,7 @@ void EnergyRecorder::restore(int mesh, const std::vector<double> &places,
   OfMesh &m = taken(mesh);
   m = OfMesh();
   if (!host_.is_first()) return;
-  m.places.add_packed(places.data(), places.size() / EnergyPlaces::kPacked);
+  m.places.add_packed(places);
   m.spectrum.unpack(spectrum);
 }
 

@@ -28,10 +28,10 @@ MeshLoads &LoadRecorder::taken(int mesh)
   MeshLoads &loads = loads_[mesh];
   if (!engine_) return loads;
   constexpr int kRow = LoadEngine::kRow, kWork = 4;
-  static_assert(kRow == MeshLoads::kPackedLoad);
+  static_assert(kRow == MeshLoads::kPacked);
   std::vector<Real> rows = engine_->take(mesh);
   for (std::size_t at = kWork; at < rows.size(); at += kRow) rows[at] *= wear_per_work(mesh);
-  loads.add_packed(rows.data(), rows.size() / kRow);
+  loads.add_packed(rows);
   return loads;
 }
 
@@ -57,10 +57,9 @@ Real LoadRecorder::worn(int mesh)
 
 MeshLoads LoadRecorder::gathered(int mesh)
 {
-  const std::vector<Real> rows = host_.gather(taken(mesh).packed());
   MeshLoads all;
+  all.add_packed(host_.gather(taken(mesh).packed()));
   all.set_time(loads_[mesh].time());
-  all.add_packed(rows.data(), rows.size() / MeshLoads::kPackedLoad);
   return all;
 }
 
@@ -68,7 +67,7 @@ void LoadRecorder::restore(int mesh, Real time, const std::vector<double> &rows)
 {
   taken(mesh) = MeshLoads();
   loads_[mesh].set_time(time);
-  if (host_.is_first()) loads_[mesh].add_packed(rows.data(), rows.size() / MeshLoads::kPackedLoad);
+  if (host_.is_first()) loads_[mesh].add_packed(rows);
 }
 
 std::size_t LoadRecorder::bytes() const
