@@ -70,8 +70,7 @@ void add_plain_styles(void *lmp, void *handle, void *regfunc)
             "fix insert/lsdcd: grains through a flat mesh or into a region",
             create_fix<GuardedFix<FixInsertLsdcd>>);
   add_style("fix", lmp, handle, regfunc, "gravity/lsdcd",
-            "fix gravity/lsdcd: fix gravity under the name of its form for Kokkos",
-            create_gravity);
+            "fix gravity/lsdcd: fix gravity under the name of its form for Kokkos", create_gravity);
   add_style("fix", lmp, handle, regfunc, "SPRINGS/LSDCD",
             "fix SPRINGS/LSDCD: what pairs of granular/lsdcd keep",
             create_fix<GuardedFix<FixSpringsLsdcd>>);
