@@ -118,6 +118,43 @@ def test_many_setups(folder):
         at_most(f"{law}: remainders", max(abs(b["remainder"]) for b in (one, many)) / lost, 1e-3)
 
 
+@lmp.of_host
+def test_friction_heat(folder):
+    """The heat that fix heat/flow adds up in grains that hop along a belt and into a paddle is the share of what sliders lose, over runs with
+    a setup and without, behind a restart and on 2 processes."""
+    stl.write(folder / "belt.stl", stl.sheet(5, lambda i, j: (-4 + 1.6 * i, -4 + 1.6 * j, 0)))
+    stl.write(folder / "paddle.stl", stl.quad((-2, 0, 0), (2, 0, 0), (2, 0, 2), (-2, 0, 2)))
+    heats = "fix heats all property/atom temperature heatflow ghost yes\n"
+    head = lmp.head("-4 4 -4 4 -1 6") + heats + """\
+lattice         sc 0.5
+region          fill block -2.5 2.5 -2.5 2.5 0.6 2 units box
+create_atoms    1 region fill
+set             group all diameter 1 mass 2 temperature 1
+velocity        all create 8 11 loop geom
+velocity        all set NULL NULL -12 sum yes
+"""
+    rest = lmp.pairs() + """\
+fix             move all nve/sphere
+fix             sides all wall/reflect xlo -3.4 xhi 3.4 ylo -3.4 yhi 3.4 units box
+fix             wall all wall/lsdcd granular hertz/material 5e5 0.3 0.3 tangential mindlin NULL 1 0.4 damping tsuji heat area 0 energy friction_heat 0.6 &
+                mesh belt.stl temperature 1 surface_vel 3 0 0 mesh paddle.stl temperature 1 motion rotate 0 0 0 0 0 1 1
+fix             flow all heat/flow constant 1.5
+timestep        4e-5
+compute         warmth all property/atom temperature
+variable        gained atom 1.5*mass*(c_warmth-1)
+compute         heat all reduce sum v_gained
+thermo_style    custom step c_heat f_wall[61]
+thermo_modify   format float %.17g norm no
+thermo          100000
+"""
+    for ranks in (1, 2):
+        lmp.run_well(head + rest + "run 1100\nrun 300 pre no\nwrite_restart half.restart\n", folder, ranks)
+        again = "newton off\nread_restart half.restart\ncomm_modify vel yes\n" + heats + rest + "run 600\nrun 300\n"
+        heat, lost = lmp.read_thermo(lmp.run_well(again, folder, ranks))[-1][1:]
+        fact(f"{ranks}: grains slide", lost > 1, lost)
+        close(f"{ranks}: heat over 0.6 of what sliders lose", heat / (0.6 * lost), 1, 1, 1e-11)    # temperatures near 1 are rounded
+
+
 def test_respa(folder):
     """Velocities are not the same in a whole step of respa, so that its work is not that of the books."""
     text = SPHERE.format(x=DOWN, v="0 0 0", move="fix move all nve/sphere", law="hooke 1e4 NULL 20 NULL 0 0", dt="1e-4", columns=" ".join(COLUMNS),
