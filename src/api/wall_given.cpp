@@ -179,7 +179,7 @@ void read_setting(const Kind &kind, Given given, const std::string &field, T &to
     to = static_cast<T>(checked_choice(given, field, static_cast<int>(kind.n), kind.names));
   } else if constexpr (std::is_same_v<Kind, FlagSetting>) {
     to = checked_flag(given, field);
-  } else if constexpr (std::is_same_v<Kind, LengthSetting>) {
+  } else if constexpr (std::is_same_v<Kind, LengthSetting> || std::is_same_v<Kind, SpeedSetting>) {
     to = number_or(0, given, field, kAbove0);
   } else if constexpr (std::is_same_v<Kind, NearestSetting>) {
     to = checked_choice(given, field, kMaxNearest + 1,
@@ -191,8 +191,6 @@ void read_setting(const Kind &kind, Given given, const std::string &field, T &to
     to = steps_or_none(given, field, kind.none, kStepsRange);
   } else if constexpr (std::is_same_v<Kind, ShareSetting>) {
     to = checked_number(given, field, kShareRange);
-  } else if constexpr (std::is_same_v<Kind, SpeedSetting>) {
-    to = number_or(0, given, field, kAbove0);
   } else {
     static_assert(std::is_same_v<Kind, FactorSetting>);
     if (given != -1 && given != 0) to = checked_number(given, field, kWearFactorRange);

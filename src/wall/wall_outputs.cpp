@@ -252,7 +252,7 @@ const std::vector<WallOutput> &wall_outputs()
 {
   using P = OutputPart;
   using T = MeshTotals;
-  constexpr bool adds_up = true, is_one = false;
+  const bool adds_up = true, is_one = false;
   static const std::vector<WallOutput> all = {
       {3, "force", "force on the mesh, x y z", "force units", adds_up, P::every_wall,
        vector_of<&T::force>, vector_of_all<&T::force>},
