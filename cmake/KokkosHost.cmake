@@ -65,7 +65,7 @@ function(lsdcd_kokkos_plugin name folder)
   endif()
 
   set(kokkos ${PROJECT_SOURCE_DIR}/kokkos)
-  set(sources lsdcdkkplugin.cpp fix_gravity_lsdcd_kokkos.cpp fix_massflow_lsdcd_kokkos.cpp fix_springs_lsdcd_kokkos.cpp fix_wall_lsdcd_kokkos.cpp fix_wall_lsdcd_kokkos_exchange.cpp pair_granular_lsdcd_kokkos.cpp)
+  set(sources lsdcdkkplugin.cpp fix_gravity_lsdcd_kokkos.cpp fix_massflow_lsdcd_kokkos.cpp fix_springs_lsdcd_kokkos.cpp fix_wall_lsdcd_kokkos.cpp fix_wall_lsdcd_kokkos_exchange.cpp pair_granular_lsdcd_kokkos.cpp variable_formula.cpp)
   list(TRANSFORM sources PREPEND ${kokkos}/)
   file(STRINGS ${kokkos_headers}/KokkosCore_config.h facts REGEX
     "^#define KOKKOS_ENABLE_(OPENMP|CUDA|HIP|SYCL|OPENMPTARGET|OPENACC|CXX20)$")

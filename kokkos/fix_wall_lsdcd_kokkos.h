@@ -39,6 +39,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void need_on_cpu() override;
   void need_positions() override;
   void need_nodes() override;
+  void need_inputs() override;
   void need_ids() override;
   void add_node_forces() override;
   lsdcd::HostSpheres spheres() override;
@@ -51,6 +52,8 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void log_rounding();
   void warn_of_rounding();
   bool others_only_add() const;
+  void look_at_inputs();
+  bool variable_reads_atoms(const std::string &name, int depth) const;
   int pack_rows(int, const int *, const int *, double *);
   void unpack_rows(int, const int *, const double *);
 
@@ -62,6 +65,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   Kokkos::View<double *, DeviceType> d_damping_mass;
   // Where fixes before this one only add forces, they are added right behind those between atoms.
   lsdcd::When when = lsdcd::When::beside;
+  bool inputs_read_atoms = false;    // and the CPU has not the newest ones
   // Where atoms are in float:
   lsdcd::FloatSpheres float_spheres;
   bool rounding_logged = false, rounding_warned = false;

@@ -503,6 +503,7 @@ std::vector<double> FixWallLsdcd::read_inputs()
   const std::vector<int> read = wall->inputs_read();
   std::vector<double> values(spec().inputs.size(), 0);
   if (read.empty()) return values;
+  need_inputs();
   modify->clearstep_compute();
   for (const int k : read) {
     const std::string &name = spec().inputs[k];

@@ -114,6 +114,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   virtual void need_positions() {}    // before check_wrapping()
   virtual void need_nodes() {}        // before atoms that are nodes are read
   virtual void need_ids() {}          // before atom IDs are read
+  virtual void need_inputs() {}       // before variables are evaluated in a step
   virtual void add_node_forces();
   virtual void make_exchange_room();
 
