@@ -98,7 +98,8 @@ class PairEngineOn : public PairEngine {
     s.n_types = n_types_;
     s.kind_of = kind_of_.data();
     s.pull_off = pull_off_.data();
-    for (int k = 0; k < 4; k++) s.left_out |= unsigned(step.factor[k] == 0) << k;
+    for (int k = 0; k < 4; k++)
+      if (step.factor[k] == 0) s.left_out |= 1u << k;
     s.alone = B::kOnCpu && threads() == 1;
     if (sums) {
       sums_.reserve(kPairSums * std::size_t(step.n_all));
