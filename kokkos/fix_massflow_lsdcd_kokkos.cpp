@@ -346,8 +346,8 @@ void FixMassflowLsdcdKokkos::begin_at_atoms()
   may_delete = true;    // atoms have come from other processes, or a restart file
 }
 
-// Where all atoms are looked at, the number of candidates has no bound but theirs: those without room are looked at once more, and
-// for all others that is a path of length 0.
+// Where all atoms are looked at, the number of candidates has no bound but theirs. If some are without room, all are looked at once
+// more with room for them: for those that are counted already that is a path of length 0.
 void FixMassflowLsdcdKokkos::look_at_atoms()
 {
   if (!look_at_all) {
@@ -360,11 +360,15 @@ void FixMassflowLsdcdKokkos::look_at_atoms()
   const auto n = static_cast<std::size_t>(atom->nlocal);
   if (near.extent(0) < n) near = decltype(near)("lsdcd:near", lsdcd::with_spare(n));
   int seen[2];
-  do {
+  bool has_all = false;
+  while (!has_all) {
     run_kernel(nullptr, atom->nlocal);
     read_counts(seen);
-    count_found(std::min(seen[1], static_cast<int>(found.extent(0))));
-  } while (seen[1] > static_cast<int>(found.extent(0)));
+    const auto n_found = static_cast<std::size_t>(seen[1]);
+    has_all = n_found <= found.extent(0);
+    count_found(static_cast<int>(std::min<std::size_t>(n_found, found.extent(0))));
+    if (!has_all) found = decltype(found)("lsdcd:found", lsdcd::with_spare(n_found));
+  }
   n_near = seen[0];
   constexpr std::size_t kSteps = 8;    // after which candidates are counted at the latest
   const std::size_t room = std::max(kLeastRoom, kSteps * n_near);
@@ -521,6 +525,7 @@ int FixMassflowLsdcdKokkos::pack_exchange_kokkos(const int &n, lsdcd::ExchangeBu
                                                  DAT::tdual_int_1d which, DAT::tdual_int_1d from,
                                                  ExecutionSpace space)
 {
+  settle();    // another fix may delete atoms before this one has looked at its candidates
   which.sync<DeviceSpace>();
   from.sync<DeviceSpace>();
   buffer.clear_sync_state();

@@ -8,6 +8,7 @@ and edges of a plate: all positions are exact in binary. On the surface counts a
 sphere from height z passes in step 128 z + 1.
 """
 
+import random
 import re
 
 import pytest
@@ -366,6 +367,60 @@ def test_many(folder):
     fact("all that pass in a step are counted in it", len(first) > 4096 and set(counts[step] for step in range(1, later)) == {len(first)} and
          counts[later] == len(over), f"{len(first)} {counts[1]} {counts[later - 1]} {counts[later]}")
     write_data(folder / "spheres.data", spheres())
+
+
+def as_plain(folder, name, text):
+    """The last row of a script with FLOWS in place of the fixes, which /kk must have as the form without it has."""
+    flows = re.search(r"FLOWS(.*?)END", text, re.S).group(1)
+    rows = [lmp.read_thermo(lmp.run_well(re.sub("FLOWS.*?END\n", lambda _: form, text, flags=re.S), folder))[-1]
+            for form in (f"suffix off{flows}suffix on\n", flows)]
+    fact(f"{name}: something passes", rows[0][2] > 0, str(rows[0]))
+    fact(f"{name}: as the plain fix counts", rows[0] == rows[1], f"{rows}")
+
+
+@lmp.of_kokkos
+def test_two_that_delete(folder):
+    """One deletes atoms while the other has candidates that it has not looked at."""
+    write_plate(folder / "high.stl", 2.9, 1)
+    write_plate(folder / "low.stl", 2.9, 1)
+    places = random.Random(1)
+    write_data(folder / "spheres.data", [(1, places.uniform(-2.8, 2.8), places.uniform(-2.8, 2.8), places.uniform(-0.4, 2.9)) for _ in range(400)])
+    as_plain(folder, "two that delete", begin("p p f").replace("sort 20 1.5", "sort 0 0") + lmp.pairs("zero 0.5") + f"""\
+comm_modify     cutoff 1.0
+fix             move all nve
+timestep        {1 / STEPS_PER_LENGTH}
+FLOWS
+fix             high all massflow/lsdcd mesh high.stl move 0 0 0.5 rotate 1 0 0 180 delete yes
+fix             low all massflow/lsdcd mesh low.stl rotate 1 0 0 180 delete yes
+END
+thermo          250
+thermo_style    custom step atoms f_high[1] f_high[2] f_high[7] f_low[1] f_low[2] f_low[7]
+run             250
+""")
+
+
+@lmp.of_kokkos
+def test_many_candidates(folder):
+    """All grains of a bed are in the box of an oblique facet, more than there is room for at first."""
+    stl.write(folder / "oblique.stl", stl.sheet(1, lambda i, j: (5.8 * i - 2.9, 5.8 * j - 2.9, 5.8 * i - 2.9)))
+    as_plain(folder, "many candidates", SETTINGS + """\
+region          box block -3 3 -3 3 -3 3
+create_box      1 box
+region          in block -2.8 2.8 -2.8 2.8 -2.8 2.8
+create_atoms    1 random 80000 1234 in
+set             group all diameter 0.001 density 1
+velocity        all set 0 0 -0.1
+""" + lmp.pairs("zero 0.05", skin=0.05) + """\
+comm_modify     cutoff 0.2
+fix             move all nve
+timestep        0.001
+FLOWS
+fix             m all massflow/lsdcd mesh oblique.stl rotate 1 0 0 180
+END
+thermo          20
+thermo_style    custom step atoms f_m[1] f_m[2] f_m[3] f_m[4]
+run             20
+""")
 
 
 @lmp.of_kokkos
