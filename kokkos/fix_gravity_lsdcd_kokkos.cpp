@@ -3,6 +3,8 @@
 
 #include "fix_gravity_lsdcd_kokkos.h"
 
+#include "variable_reads.h"
+
 #include "atom_masks.h"
 #include "error.h"
 
@@ -17,11 +19,44 @@ FixGravityLsdcdKokkos<DeviceType>::FixGravityLsdcdKokkos(LAMMPS *lmp, int narg, 
     atomKK(static_cast<AtomKokkos *>(atom))
 {
   lsdcd::bring_no_atoms(*this, ExecutionSpaceFromDevice<DeviceType>::space);
+  if (!variables().empty()) xacc = yacc = zacc = 0;    // until a run evaluates them
   if (!atom->rmass)
     error->all(FLERR,
                "Fix {} gravity/lsdcd/kk: atoms have no masses of their own (atom_style "
                "sphere): use fix gravity",
                id);
+}
+
+template <class DeviceType>
+std::vector<std::string> FixGravityLsdcdKokkos<DeviceType>::variables() const
+{
+  std::vector<std::string> names;
+  for (const char *name : {mstr, vstr, pstr, tstr, xstr, ystr, zstr})
+    if (name) names.push_back(name);
+  return names;
+}
+
+template <class DeviceType>
+void FixGravityLsdcdKokkos<DeviceType>::look_at_variables()
+{
+  look_again = reads_atoms = false;
+  if (lsdcd::kOnCpu<DeviceType>) return;
+  for (const std::string &name : variables())
+    reads_atoms = reads_atoms || lsdcd::variable_reads_atoms(lmp, name);
+}
+
+template <class DeviceType>
+void FixGravityLsdcdKokkos<DeviceType>::init()
+{
+  FixGravity::init();
+  look_at_variables();
+}
+
+template <class DeviceType>
+void FixGravityLsdcdKokkos<DeviceType>::post_run()
+{
+  FixGravity::post_run();
+  look_again = true;
 }
 
 template <class DeviceType>
@@ -34,6 +69,8 @@ void FixGravityLsdcdKokkos<DeviceType>::setup(int vflag)
 template <class DeviceType>
 void FixGravityLsdcdKokkos<DeviceType>::post_force(int vflag)
 {
+  if (look_again) look_at_variables();    // a run without init()
+  if (reads_atoms) atomKK->sync(Host, ALL_MASK);
   // With `disable` LAMMPS's fix only brings its acceleration up to date.
   const int was_disabled = disable;
   disable = 1;

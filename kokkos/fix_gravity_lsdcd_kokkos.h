@@ -10,6 +10,9 @@
 
 #include "fix_gravity.h"
 
+#include <string>
+#include <vector>
+
 namespace LAMMPS_NS {
 
 template <class DeviceType>
@@ -17,8 +20,10 @@ class FixGravityLsdcdKokkos : public FixGravity {
  public:
   FixGravityLsdcdKokkos(class LAMMPS *, int narg, char **arg);
 
+  void init() override;
   void setup(int) override;
   void post_force(int) override;
+  void post_run() override;
   double compute_scalar() override;
 
   // For lambdas of nvcc, which must not be in a private function.
@@ -27,6 +32,11 @@ class FixGravityLsdcdKokkos : public FixGravity {
 
  private:
   AtomKokkos *atomKK;
+  bool reads_atoms = false;    // by its variables, and the CPU has not the newest ones
+  bool look_again = false;     // at variables, which commands between runs may have changed
+
+  std::vector<std::string> variables() const;
+  void look_at_variables();
 };
 
 }    // namespace LAMMPS_NS

@@ -4,24 +4,20 @@
 #include "fix_wall_lsdcd_kokkos.h"
 
 #include "host_kokkos.h"
-#include "variable_formula.h"
+#include "variable_reads.h"
 
 #include "backend/owned_array.h"
 #include "base/input_words.h"
 #include "lammps/host_fixes.h"
 
 #include "comm.h"
-#include "compute.h"
 #include "domain.h"
 #include "error.h"
 #include "group.h"
-#include "info.h"
-#include "input.h"
 #include "lammps.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
-#include "variable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -183,10 +179,10 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::look_at_inputs()
 {
   const bool did = inputs_read_atoms;
-  inputs_read_atoms = false;
+  inputs_read_atoms = look_again = false;
   if (lsdcd::kOnCpu<DeviceType>) return;
   for (const std::string &name : spec().inputs) {
-    if (!variable_reads_atoms(name, 0)) continue;
+    if (!lsdcd::variable_reads_atoms(lmp, name)) continue;
     inputs_read_atoms = true;
     if (!did && !spec().brief)
       log("variable '" + name +
@@ -194,28 +190,11 @@ void FixWallLsdcdKokkos<DeviceType>::look_at_inputs()
   }
 }
 
-// Variables of other styles than equal may be anything, as may those that ask each other without an end.
-template <class DeviceType>
-bool FixWallLsdcdKokkos<DeviceType>::variable_reads_atoms(const std::string &name, int depth) const
-{
-  constexpr int kDeepest = 100;
-  const int variable = input->variable->find(name.c_str());
-  if (variable < 0 || depth > kDeepest) return true;
-  const std::string info = Info(lmp).get_variable_info(variable), begin = "def =";
-  if (info.find("style = equal,") == std::string::npos) return true;
-  return lsdcd::formula_reads_atoms(
-      info.substr(info.find(begin) + begin.size()),
-      [&](const std::string &other) { return variable_reads_atoms(other, depth + 1); },
-      [&](const std::string &id) {
-        const Compute *const compute = modify->get_compute_by_id(id);
-        return !compute || !compute->kokkosable;
-      });
-}
-
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::post_run()
 {
   FixWallLsdcd::post_run();
+  look_again = true;
   if (lsdcd::kFloatAtoms) warn_of_rounding();
 }
 
@@ -314,6 +293,7 @@ void FixWallLsdcdKokkos<DeviceType>::need_nodes()
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::need_inputs()
 {
+  if (look_again) look_at_inputs();    // a run without init()
   if (inputs_read_atoms) atomKK->sync(Host, ALL_MASK);
 }
 

@@ -53,7 +53,6 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void warn_of_rounding();
   bool others_only_add() const;
   void look_at_inputs();
-  bool variable_reads_atoms(const std::string &name, int depth) const;
   int pack_rows(int, const int *, const int *, double *);
   void unpack_rows(int, const int *, const double *);
 
@@ -66,6 +65,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   // Where fixes before this one only add forces, they are added right behind those between atoms.
   lsdcd::When when = lsdcd::When::beside;
   bool inputs_read_atoms = false;    // and the CPU has not the newest ones
+  bool look_again = false;           // at variables, which commands between runs may have changed
   // Where atoms are in float:
   lsdcd::FloatSpheres float_spheres;
   bool rounding_logged = false, rounding_warned = false;

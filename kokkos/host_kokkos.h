@@ -113,11 +113,14 @@ void with_atoms_of_host(LAMMPS_NS::LAMMPS *lmp, Work &&work)
   lmp->kokkos->auto_sync = before;
 }
 
-// At the end of a run the host has all atoms. Counts them as changed there, so that the next run takes from the host what commands
-// such as set and velocity change without a word to Kokkos, also with "run ... pre no", which sets nothing up.
+// Ends a run with all atoms on the host, as changed there, so that the next run takes from there what commands such as set and velocity
+// change without a word to Kokkos, also with "run ... pre no", which sets nothing up. A fix of LAMMPS with /kk that stands behind the caller,
+// as gravity/kk, may bring what it reads to the device once more; without a setup it is old there then.
 inline void leave_atoms_to_host(LAMMPS_NS::LAMMPS *lmp)
 {
-  static_cast<LAMMPS_NS::AtomKokkos *>(lmp->atom)->modified(LAMMPS_NS::Host, ALL_MASK);
+  auto &atoms = *static_cast<LAMMPS_NS::AtomKokkos *>(lmp->atom);
+  atoms.sync(LAMMPS_NS::Host, ALL_MASK);    // a rerun has not brought them
+  atoms.modified(LAMMPS_NS::Host, ALL_MASK);
 }
 
 // Brings a device atoms as commands between runs left them on the host: set and velocity change them there without a word to Kokkos.

@@ -3,6 +3,8 @@
 
 """fix gravity/lsdcd against LAMMPS's fix gravity: forces, energy, changing and disabled gravity, groups, processes, commands between runs."""
 
+import re
+
 import pytest
 
 import lmp
@@ -68,6 +70,12 @@ def test_as_fix_gravity(folder, scene):
         at_most(f"{scene}, {ranks} ranks: forces and ways", lmp.largest_difference(*moves), 1e-11)
         fact(f"{scene}, {ranks} ranks: has energy", scene == "disabled" or abs(energies[0][-1][2]) > 1, energies[0][-1])
         at_most(f"{scene}, {ranks} ranks: energy", max(abs(a - b) / max(1, abs(a)) for p, q in zip(*energies) for a, b in zip(p, q)), 1e-12)
+
+
+def test_before_a_run(folder):
+    """No variable has been evaluated."""
+    output = lmp.run_well(GRAINS + LAW + SCENES["variables"].replace(" gravity ", " gravity/lsdcd ") + 'print "before $(f_down:%.17g)"\nrun 0\n', folder)
+    fact("no energy before a run", "\nbefore 0\n" in output or "\nbefore -0\n" in output, str(re.findall("before.*", output)))
 
 
 @pytest.mark.skipif(not lmp.ON_KOKKOS, reason="of the form for Kokkos")

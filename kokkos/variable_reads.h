@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// Whether a variable of this LAMMPS reads atoms: see variable_formula.h.
+#ifndef LSDCD_VARIABLE_READS_H
+#define LSDCD_VARIABLE_READS_H
+
+#include "variable_formula.h"
+
+#include "compute.h"
+#include "info.h"
+#include "input.h"
+#include "lammps.h"
+#include "modify.h"
+#include "variable.h"
+
+#include <string>
+
+namespace lsdcd {
+
+// Variables of other styles than equal may be anything, as may those that ask each other without an end.
+inline bool variable_reads_atoms(LAMMPS_NS::LAMMPS *lmp, const std::string &name, int depth = 0)
+{
+  constexpr int kDeepest = 100;
+  const int variable = lmp->input->variable->find(name.c_str());
+  if (variable < 0 || depth > kDeepest) return true;
+  const std::string info = LAMMPS_NS::Info(lmp).get_variable_info(variable), begin = "def =";
+  if (info.find("style = equal,") == std::string::npos) return true;
+  return formula_reads_atoms(
+      info.substr(info.find(begin) + begin.size()),
+      [&](const std::string &other) { return variable_reads_atoms(lmp, other, depth + 1); },
+      [&](const std::string &id) {
+        const LAMMPS_NS::Compute *const compute = lmp->modify->get_compute_by_id(id);
+        return !compute || !compute->kokkosable;
+      });
+}
+
+}    // namespace lsdcd
+
+#endif
