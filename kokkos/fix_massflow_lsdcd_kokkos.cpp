@@ -547,7 +547,7 @@ void FixMassflowLsdcdKokkos::unpack_exchange_kokkos(lsdcd::ExchangeBuffer &buffe
   buffer.clear_sync_state();
   if (lsdcd::sends_from_host<DeviceSpace>(space)) buffer.modify<LMPHostType>();
   buffer.sync<DeviceSpace>();
-  to.sync<DeviceSpace>();
+  lsdcd::bring_places<DeviceSpace>(to, space);
   change_on_device();
   for_each(n, UnpackRows{to.view<DeviceSpace>().data(), buffer.view<DeviceSpace>().data(),
                          places.view_device().data(), flags.view_device().data()});

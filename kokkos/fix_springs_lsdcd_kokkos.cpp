@@ -5,6 +5,8 @@
 
 #include "utils.h"
 
+#include <algorithm>
+
 using namespace LAMMPS_NS;
 
 template <class DeviceType>
@@ -115,7 +117,7 @@ std::vector<double> FixSpringsLsdcdKokkos<DeviceType>::numbers_of(int i, int j)
 template <class DeviceType>
 void FixSpringsLsdcdKokkos<DeviceType>::set_arrays(int i)
 {
-  if (!on_device) partners.clear(i);
+  if (!on_device || between_runs) of_atoms().clear(i);
   known_as[i] = 0;
 }
 
@@ -149,8 +151,8 @@ int FixSpringsLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
                                                             ExecutionSpace space)
 {
   if (!keeps()) return 0;
-  // LAMMPS has taken the n atoms that leave from nlocal already, and atoms behind it come to their places.
-  need_on_device(atom->nlocal + n);
+  // LAMMPS has taken the n atoms that leave from nlocal already, and may have added those that came.
+  need_on_device(std::min(atom->nlocal + n, atom->nmax));
   which.template sync<DeviceType>();
   from.template sync<DeviceType>();
   buffer.clear_sync_state();
@@ -176,7 +178,7 @@ void FixSpringsLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBu
   buffer.clear_sync_state();
   if (lsdcd::sends_from_host<DeviceType>(space)) buffer.template modify<LMPHostType>();
   buffer.template sync<DeviceType>();
-  to.template sync<DeviceType>();
+  lsdcd::bring_places<DeviceType>(to, space);
   engine->unpack(n, to.template view<DeviceType>().data(),
                  buffer.template view<DeviceType>().data(), n_first, second);
   if (between_runs) keep_names();

@@ -6,6 +6,8 @@
 
 #include "fix_wall_lsdcd_kokkos.h"
 
+#include <algorithm>
+
 using namespace LAMMPS_NS;
 
 // Numbers on the device as an array on the host, and the other way.
@@ -73,9 +75,11 @@ int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
   const int *comes = from.template view<DeviceType>().data();
   double *at = buffer.template view<DeviceType>().data();
   int size = pack_rows(n, leaves, comes, at);
-  // LAMMPS has taken the n atoms that leave from nlocal already, and atoms behind it come to their places.
+  // LAMMPS has taken the n atoms that leave from nlocal already, and may have added those that came.
   if (has_history())
-    size += wall->history().in_engine(atom->nlocal + n).pack(n, leaves, comes, at + size);
+    size += wall->history()
+                .in_engine(std::min(atom->nlocal + n, atom->nmax))
+                .pack(n, leaves, comes, at + size);
   if (lsdcd::sends_from_host<DeviceType>(space)) {
     buffer.template modify<DeviceType>();
     buffer.template sync<LMPHostType>();
@@ -92,7 +96,7 @@ void FixWallLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBuffe
   buffer.clear_sync_state();
   if (lsdcd::sends_from_host<DeviceType>(space)) buffer.template modify<LMPHostType>();
   buffer.template sync<DeviceType>();
-  to.template sync<DeviceType>();
+  lsdcd::bring_places<DeviceType>(to, space);
   const int *places = to.template view<DeviceType>().data();
   const double *at = buffer.template view<DeviceType>().data();
   const int n_second = n - n_first, rows = n_first * row_size();

@@ -9,8 +9,6 @@
 
 #include "lammps/guarded_styles.h"
 
-#include <cstring>
-
 namespace LAMMPS_NS {
 
 template <class Style>
@@ -20,12 +18,10 @@ class GuardedFixKokkos : public GuardedFix<Style> {
  public:
   using GuardedFix<Style>::GuardedFix;
 
-  // Restart files keep data of atoms under the name of a style: it is the same for both forms, so that each takes up that of the other.
   void post_constructor() override
   {
     GuardedFix<Style>::post_constructor();
-    char *const suffix = std::strstr(this->style, "/kk");
-    if (suffix) *suffix = 0;
+    lsdcd::drop_suffix(this->style);
   }
 
   void post_run() override
@@ -50,6 +46,19 @@ class GuardedFixKokkos : public GuardedFix<Style> {
   void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter) override
   {
     this->run_core_here([&] { Style::sort_kokkos(sorter); });
+  }
+};
+
+// A fix without data of atoms on the device.
+template <class Style>
+class GuardedFixOnHost : public GuardedFix<Style> {
+ public:
+  using GuardedFix<Style>::GuardedFix;
+
+  void post_constructor() override
+  {
+    GuardedFix<Style>::post_constructor();
+    lsdcd::drop_suffix(this->style);
   }
 };
 

@@ -20,6 +20,7 @@
 #include "engine/engine.h"
 #include "pair/pair_engine.h"
 
+#include <cstring>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -80,6 +81,25 @@ template <class DeviceType>
 bool sends_from_host(LAMMPS_NS::ExecutionSpace space)
 {
   return !kOnCpu<DeviceType> && space != LAMMPS_NS::Device;
+}
+
+// Brings a device the places of atoms that came, which LAMMPS writes on the host without a word to Kokkos where messages come to it.
+template <class DeviceType, class List>
+void bring_places(List &to, LAMMPS_NS::ExecutionSpace space)
+{
+  if (sends_from_host<DeviceType>(space)) {
+    to.clear_sync_state();
+    to.template modify<LMPHostType>();
+  }
+  to.template sync<DeviceType>();
+}
+
+// Takes the suffix from the name under which restart files keep what a fix has: it is the same for all forms, so that each takes up
+// that of the other.
+inline void drop_suffix(char *style)
+{
+  char *const suffix = std::strstr(style, "/kk");
+  if (suffix) *suffix = 0;
 }
 
 // Returns LAMMPS where it runs with Kokkos and the host has the atoms of `mask`, which the constructor of a fix without /kk

@@ -76,10 +76,10 @@ extern "C" __attribute__((visibility("default"))) void lsdcd_add_styles(void *lm
   add("wall/lsdcd/kk/host", create_fix<GuardedFixKokkos<FixWallLsdcdKokkos<LMPHostType>>>);
   add("massflow/lsdcd/kk", create_fix<GuardedFixKokkos<FixMassflowLsdcdKokkos>>);
   add("massflow/lsdcd/kk/device", create_fix<GuardedFixKokkos<FixMassflowLsdcdKokkos>>);
-  add("massflow/lsdcd/kk/host", create_fix<GuardedFix<FixMassflowLsdcd>>);
-  add("insert/lsdcd/kk", create_fix<GuardedFix<FixInsertLsdcdKokkos>>);
-  add("insert/lsdcd/kk/device", create_fix<GuardedFix<FixInsertLsdcdKokkos>>);
-  add("insert/lsdcd/kk/host", create_fix<GuardedFix<FixInsertLsdcdKokkos>>);
+  add("massflow/lsdcd/kk/host", create_fix<GuardedFixOnHost<FixMassflowLsdcd>>);
+  add("insert/lsdcd/kk", create_fix<GuardedFixOnHost<FixInsertLsdcdKokkos>>);
+  add("insert/lsdcd/kk/device", create_fix<GuardedFixOnHost<FixInsertLsdcdKokkos>>);
+  add("insert/lsdcd/kk/host", create_fix<GuardedFixOnHost<FixInsertLsdcdKokkos>>);
   add("gravity/lsdcd/kk", create_fix<FixGravityLsdcdKokkos<LMPDeviceType>>);
   add("gravity/lsdcd/kk/device", create_fix<FixGravityLsdcdKokkos<LMPDeviceType>>);
   add("gravity/lsdcd/kk/host", create_fix<FixGravityLsdcdKokkos<LMPHostType>>);

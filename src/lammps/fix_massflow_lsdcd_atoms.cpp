@@ -80,7 +80,9 @@ void FixMassflowLsdcd::pre_exchange()
     if (!(flags_of(i) & kToDelete)) continue;
     n++;
     mass += mass_of(i);
-    atom->avec->copy(--atom->nlocal, i, 1);
+    atom->avec->copy(atom->nlocal - 1, i,
+                     1);    // of what other fixes keep, too, for as long as it counts
+    atom->nlocal--;
   }
   note_deleted(n, mass);
 }

@@ -365,3 +365,21 @@ def test_ends(folder):
                        "plugin unload fix insert/lsdcd\ninfo fixes\nrun 10\n", folder)
     counts = [part.split("Loop time")[0].count("= pour") for part in out.split("Fix information:")[1:]]
     fact("it leaves nothing behind", counts == [2, 2, 0], str(counts))
+
+
+@lmp.of_kokkos
+def test_kokkos_named_in_full(folder):
+    """A fix whose style is written with /kk is taken up from a restart file by the one without."""
+    text = "suffix off\n" + lmp.head("0 1 0 1 0 1", style="sphere/kk", units="si") + lmp.pairs("zero 0.06", skin=0.01) + """\
+region          in block 0.2 0.8 0.2 0.8 0.2 0.8 units box
+run_style       verlet/kk
+fix             move all nve/sphere/kk
+fix             in all insert/lsdcdFORM region in diam one 0.05 dens 1000 numberrate 500 number 80
+timestep        1e-3
+thermo_style    custom step atoms
+"""
+    lmp.run_well(text.replace("FORM", "/kk") + "run 100\nwrite_restart grains.restart\n", folder)
+    again = re.sub("region +box.*\n.*\n", "read_restart grains.restart\n", text)
+    output = lmp.run_well(again.replace("FORM", "") + "run 100\n", folder)
+    fact("taken up", "Unused restart file" not in output, output[-600:])
+    fact("no more than 80 are inserted", lmp.read_thermo(output)[-1][1] == 80, str(lmp.read_thermo(output)))

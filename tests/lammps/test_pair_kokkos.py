@@ -12,6 +12,7 @@ import random
 import pytest
 
 import lmp
+import stl
 from facts import at_most, fact
 from test_pair_energy import CLOUD, CLOUD_HEAD, CLOUD_LAWS, books, same
 from test_pair_granular import COLUMNS, DT, FULL, GRANULAR, SIDE, dump, grains, ours, script, settings
@@ -240,3 +241,33 @@ def test_books(folder, law):
     told("")
     for neigh in LISTS:
         same(f"restarted with {neigh} lists", told(neigh, text=again), plain, 1e-9)
+
+
+@pytest.mark.parametrize("keeps", ("pairs", "wall"))
+def test_many_leave_and_come(folder, keeps):
+    """A box that shrinks to its grains as a run begins: the second of four processes gets more grains than it had room for behind those that
+    leave it."""
+    stl.write(folder / "floor.stl", stl.sheet(1, lambda i, j: (6 * i - 1, 3 * j - 1, 0.5)))
+    law = {"pairs": "pair_style granular/lsdcd\npair_coeff * * hooke 1000 5 tangential linear_history 300 1 0.5\n",
+           "wall": "pair_style zero 0.02\npair_coeff * *\nfix w all wall/lsdcd hooke/history 1000 NULL 5 NULL 0.5 1 mesh floor.stl\n"}[keeps]
+    output = lmp.run_well(f"""\
+units si
+atom_style sphere
+atom_modify map array
+comm_modify vel yes
+newton off
+processors 4 1 1
+boundary s p p
+region b block 0 4 0 1 0 1 units box
+create_box 1 b
+region part block 0 3 0 1 0 1 units box
+create_atoms 1 random 20000 1234 part overlap 0.0001 maxtry 200
+set group all diameter 0.02 density 1000
+neighbor 0.005 bin
+neigh_modify delay 0 every 1 check yes
+{law}fix 1 all nve/sphere
+timestep 1e-5
+thermo_style custom step atoms
+run 20
+""", folder, 4)
+    fact(f"{keeps}: none is lost", lmp.read_thermo(output)[-1][1] == 20000, str(lmp.read_thermo(output)))
