@@ -80,8 +80,8 @@ void FixMassflowLsdcd::pre_exchange()
     if (!(flags_of(i) & kToDelete)) continue;
     n++;
     mass += mass_of(i);
-    atom->avec->copy(atom->nlocal - 1, i,
-                     1);    // of what other fixes keep, too, for as long as it counts
+    // The last atom counts until it is copied with what other fixes keep of it.
+    atom->avec->copy(atom->nlocal - 1, i, 1);
     atom->nlocal--;
   }
   note_deleted(n, mass);

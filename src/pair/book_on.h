@@ -40,7 +40,7 @@ struct BookPairs {
       }
     }
     if (!any) return;
-    for (int row = 0; row < kEnergyRows; row++) rows[k].of[row] += of_row.of[row];
+    rows[k].add(of_row);
     is_booked[k] = 1;
   }
 

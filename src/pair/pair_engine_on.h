@@ -155,7 +155,7 @@ class PairEngineOn : public PairEngine {
     }
     EnergyRows sum;
     energy_sums_.sum(b_, {n, energy, is_booked, nullptr}, 1, &sum);
-    for (int row = 0; row < kEnergyRows; row++) rows.of[row] += sum.of[row];
+    rows.add(sum);
   }
 
   void sums_of_grains(int n, std::vector<Real> &to) override

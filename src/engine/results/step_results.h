@@ -82,7 +82,7 @@ struct EnergyRows {
 
   LSDCD_FN Real &operator[](EnergyRow row) { return of[static_cast<int>(row)]; }
   LSDCD_FN Real operator[](EnergyRow row) const { return of[static_cast<int>(row)]; }
-  void add(const EnergyRows &other)
+  LSDCD_FN void add(const EnergyRows &other)
   {
     for (int row = 0; row < kEnergyRows; row++) of[row] += other.of[row];
   }
