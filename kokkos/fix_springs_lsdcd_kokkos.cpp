@@ -5,8 +5,6 @@
 
 #include "utils.h"
 
-#include <algorithm>
-
 using namespace LAMMPS_NS;
 
 template <class DeviceType>
@@ -151,8 +149,7 @@ int FixSpringsLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
                                                             ExecutionSpace space)
 {
   if (!keeps()) return 0;
-  // LAMMPS has taken the n atoms that leave from nlocal already, and may have added those that came.
-  need_on_device(std::min(atom->nlocal + n, atom->nmax));
+  need_on_device(lsdcd::most_in_exchange(*atom, n));
   which.template sync<DeviceType>();
   from.template sync<DeviceType>();
   buffer.clear_sync_state();

@@ -75,10 +75,9 @@ int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
   const int *comes = from.template view<DeviceType>().data();
   double *at = buffer.template view<DeviceType>().data();
   int size = pack_rows(n, leaves, comes, at);
-  // LAMMPS has taken the n atoms that leave from nlocal already, and may have added those that came.
   if (has_history())
     size += wall->history()
-                .in_engine(std::min(atom->nlocal + n, atom->nmax))
+                .in_engine(lsdcd::most_in_exchange(*atom, n))
                 .pack(n, leaves, comes, at + size);
   if (lsdcd::sends_from_host<DeviceType>(space)) {
     buffer.template modify<DeviceType>();

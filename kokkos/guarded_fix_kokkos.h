@@ -9,20 +9,31 @@
 
 #include "lammps/guarded_styles.h"
 
+#include <cstring>
+
 namespace LAMMPS_NS {
 
+// A fix without data of atoms on the device. Restart files keep what it has under the name of its style: that is the same for all forms,
+// so that each takes up that of the other.
 template <class Style>
-class GuardedFixKokkos : public GuardedFix<Style> {
-  using typename Style::BinOp, typename Style::KeyViewType;
-
+class GuardedFixOnHost : public GuardedFix<Style> {
  public:
   using GuardedFix<Style>::GuardedFix;
 
   void post_constructor() override
   {
     GuardedFix<Style>::post_constructor();
-    lsdcd::drop_suffix(this->style);
+    char *const suffix = std::strstr(this->style, "/kk");
+    if (suffix) *suffix = 0;
   }
+};
+
+template <class Style>
+class GuardedFixKokkos : public GuardedFixOnHost<Style> {
+  using typename Style::BinOp, typename Style::KeyViewType;
+
+ public:
+  using GuardedFixOnHost<Style>::GuardedFixOnHost;
 
   void post_run() override
   {
@@ -46,19 +57,6 @@ class GuardedFixKokkos : public GuardedFix<Style> {
   void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter) override
   {
     this->run_core_here([&] { Style::sort_kokkos(sorter); });
-  }
-};
-
-// A fix without data of atoms on the device.
-template <class Style>
-class GuardedFixOnHost : public GuardedFix<Style> {
- public:
-  using GuardedFix<Style>::GuardedFix;
-
-  void post_constructor() override
-  {
-    GuardedFix<Style>::post_constructor();
-    lsdcd::drop_suffix(this->style);
   }
 };
 

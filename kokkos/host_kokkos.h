@@ -20,7 +20,7 @@
 #include "engine/engine.h"
 #include "pair/pair_engine.h"
 
-#include <cstring>
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -94,12 +94,11 @@ void bring_places(List &to, LAMMPS_NS::ExecutionSpace space)
   to.template sync<DeviceType>();
 }
 
-// Takes the suffix from the name under which restart files keep what a fix has: it is the same for all forms, so that each takes up
-// that of the other.
-inline void drop_suffix(char *style)
+// Returns how many atoms there may be while n that have gone are packed, of which LAMMPS has taken nlocal already: it may have added
+// those that came.
+inline int most_in_exchange(const LAMMPS_NS::Atom &atom, int n)
 {
-  char *const suffix = std::strstr(style, "/kk");
-  if (suffix) *suffix = 0;
+  return std::min(atom.nlocal + n, atom.nmax);
 }
 
 // Returns LAMMPS where it runs with Kokkos and the host has the atoms of `mask`, which the constructor of a fix without /kk
