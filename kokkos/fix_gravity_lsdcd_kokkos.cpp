@@ -3,8 +3,6 @@
 
 #include "fix_gravity_lsdcd_kokkos.h"
 
-#include "variable_reads.h"
-
 #include "atom_masks.h"
 #include "error.h"
 
@@ -37,26 +35,10 @@ std::vector<std::string> FixGravityLsdcdKokkos<DeviceType>::variables() const
 }
 
 template <class DeviceType>
-void FixGravityLsdcdKokkos<DeviceType>::look_at_variables()
-{
-  look_again = reads_atoms = false;
-  if (lsdcd::kOnCpu<DeviceType>) return;
-  for (const std::string &name : variables())
-    reads_atoms = reads_atoms || lsdcd::variable_reads_atoms(lmp, name);
-}
-
-template <class DeviceType>
-void FixGravityLsdcdKokkos<DeviceType>::init()
-{
-  FixGravity::init();
-  look_at_variables();
-}
-
-template <class DeviceType>
 void FixGravityLsdcdKokkos<DeviceType>::post_run()
 {
   FixGravity::post_run();
-  look_again = true;
+  atoms_of_variables.look_again();
 }
 
 template <class DeviceType>
@@ -69,8 +51,8 @@ void FixGravityLsdcdKokkos<DeviceType>::setup(int vflag)
 template <class DeviceType>
 void FixGravityLsdcdKokkos<DeviceType>::post_force(int vflag)
 {
-  if (look_again) look_at_variables();    // a run without init()
-  if (reads_atoms) atomKK->sync(Host, ALL_MASK);
+  if (!lsdcd::kOnCpu<DeviceType>)
+    atoms_of_variables.bring(lmp, variables(), [](const std::string &) {});
   // With `disable` LAMMPS's fix only brings its acceleration up to date.
   const int was_disabled = disable;
   disable = 1;

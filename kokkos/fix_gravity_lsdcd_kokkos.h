@@ -7,6 +7,7 @@
 #define LMP_FIX_GRAVITY_LSDCD_KOKKOS_H
 
 #include "host_kokkos.h"
+#include "variable_reads.h"
 
 #include "fix_gravity.h"
 
@@ -20,7 +21,6 @@ class FixGravityLsdcdKokkos : public FixGravity {
  public:
   FixGravityLsdcdKokkos(class LAMMPS *, int narg, char **arg);
 
-  void init() override;
   void setup(int) override;
   void post_force(int) override;
   void post_run() override;
@@ -32,11 +32,9 @@ class FixGravityLsdcdKokkos : public FixGravity {
 
  private:
   AtomKokkos *atomKK;
-  bool reads_atoms = false;    // by its variables, and the CPU has not the newest ones
-  bool look_again = false;     // at variables, which commands between runs may have changed
+  lsdcd::VariableAtoms atoms_of_variables;
 
   std::vector<std::string> variables() const;
-  void look_at_variables();
 };
 
 }    // namespace LAMMPS_NS

@@ -4,7 +4,6 @@
 #include "fix_wall_lsdcd_kokkos.h"
 
 #include "host_kokkos.h"
-#include "variable_reads.h"
 
 #include "backend/owned_array.h"
 #include "base/input_words.h"
@@ -171,30 +170,13 @@ void FixWallLsdcdKokkos<DeviceType>::init()
   FixWallLsdcd::init();
   when = others_only_add() ? lsdcd::When::beside_adding_early : lsdcd::When::beside;
   if (lsdcd::kFloatAtoms) log_rounding();
-  look_at_inputs();
-}
-
-// The log says which variable makes a GPU's step long.
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::look_at_inputs()
-{
-  const bool did = inputs_read_atoms;
-  inputs_read_atoms = look_again = false;
-  if (lsdcd::kOnCpu<DeviceType>) return;
-  for (const std::string &name : spec().inputs) {
-    if (!lsdcd::variable_reads_atoms(lmp, name)) continue;
-    inputs_read_atoms = true;
-    if (!did && !spec().brief)
-      log("variable '" + name +
-          "' may read atoms, so all are copied to the CPU in each step that reads it");
-  }
 }
 
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::post_run()
 {
   FixWallLsdcd::post_run();
-  look_again = true;
+  atoms_of_inputs.look_again();
   if (lsdcd::kFloatAtoms) warn_of_rounding();
 }
 
@@ -289,12 +271,16 @@ void FixWallLsdcdKokkos<DeviceType>::need_nodes()
   atomKK->sync(Host, X_MASK | V_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK);
 }
 
-// As LAMMPS's own fixes for Kokkos, which bring all atoms wherever they have variables.
+// The log says which variable makes a GPU's step long.
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::need_inputs()
 {
-  if (look_again) look_at_inputs();    // a run without init()
-  if (inputs_read_atoms) atomKK->sync(Host, ALL_MASK);
+  if (lsdcd::kOnCpu<DeviceType>) return;
+  atoms_of_inputs.bring(lmp, spec().inputs, [this](const std::string &name) {
+    if (inputs_told.insert(name).second && !spec().brief)
+      log("variable '" + name +
+          "' may read atoms, so all are copied to the CPU in each step that reads it");
+  });
 }
 
 template <class DeviceType>

@@ -6,8 +6,12 @@
 #define LMP_FIX_WALL_LSDCD_KOKKOS_H
 
 #include "host_kokkos.h"
+#include "variable_reads.h"
 
 #include "lammps/fix_wall_lsdcd.h"
+
+#include <set>
+#include <string>
 
 namespace LAMMPS_NS {
 
@@ -52,7 +56,6 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void log_rounding();
   void warn_of_rounding();
   bool others_only_add() const;
-  void look_at_inputs();
   int pack_rows(int, const int *, const int *, double *);
   void unpack_rows(int, const int *, const double *);
 
@@ -64,8 +67,8 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   Kokkos::View<double *, DeviceType> d_damping_mass;
   // Where fixes before this one only add forces, they are added right behind those between atoms.
   lsdcd::When when = lsdcd::When::beside;
-  bool inputs_read_atoms = false;    // and the CPU has not the newest ones
-  bool look_again = false;           // at variables, which commands between runs may have changed
+  lsdcd::VariableAtoms atoms_of_inputs;
+  std::set<std::string> inputs_told;    // in the log
   // Where atoms are in float:
   lsdcd::FloatSpheres float_spheres;
   bool rounding_logged = false, rounding_warned = false;

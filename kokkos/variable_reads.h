@@ -5,6 +5,7 @@
 #ifndef LSDCD_VARIABLE_READS_H
 #define LSDCD_VARIABLE_READS_H
 
+#include "host_kokkos.h"
 #include "variable_formula.h"
 
 #include "compute.h"
@@ -15,6 +16,7 @@
 #include "variable.h"
 
 #include <string>
+#include <vector>
 
 namespace lsdcd {
 
@@ -34,6 +36,31 @@ inline bool variable_reads_atoms(LAMMPS_NS::LAMMPS *lmp, const std::string &name
         return !compute || !compute->kokkosable;
       });
 }
+
+// Brings all atoms to the CPU before variables that may read them are evaluated there, as LAMMPS's own fixes for Kokkos do for all.
+class VariableAtoms {
+ public:
+  // At the end of a run: commands behind it may change variables.
+  void look_again() { is_known_ = false; }
+  // Before the variables of these names are evaluated, where the newest atoms are on a device. tell(name): of one that may read atoms.
+  template <class Tell>
+  void bring(LAMMPS_NS::LAMMPS *lmp, const std::vector<std::string> &names, const Tell &tell)
+  {
+    if (!is_known_) {
+      reads_ = false;
+      for (const std::string &name : names) {
+        if (!variable_reads_atoms(lmp, name)) continue;
+        reads_ = true;
+        tell(name);
+      }
+      is_known_ = true;
+    }
+    if (reads_) static_cast<LAMMPS_NS::AtomKokkos *>(lmp->atom)->sync(LAMMPS_NS::Host, ALL_MASK);
+  }
+
+ private:
+  bool is_known_ = false, reads_ = false;
+};
 
 }    // namespace lsdcd
 
