@@ -412,6 +412,7 @@ void FixWallLsdcd::end_of_step()
 
 void FixWallLsdcd::post_run()
 {
+  watch.end_run(*update);
   const std::string advice =
       lsdcd::atoms_stay_close(*neighbor)
           ? ""

@@ -20,9 +20,19 @@ void RerunWatch::init(const Update &update)
   inits++;
 }
 
+void RerunWatch::end_run(const Update &update)
+{
+  ended_first = update.firststep;
+  ended_last = update.laststep;
+}
+
+// Behind a run, or a part of one, atoms have the places and IDs that it and commands have given them, not those of a dump.
 bool RerunWatch::may_be_snapshot(const Update &update) const
 {
-  return update.whichflag == kDynamics && (inits > 1 || update.ntimestep != update.firststep);
+  const bool behind_a_run = update.firststep == ended_first && update.laststep == ended_last &&
+                            update.ntimestep == ended_last;
+  return update.whichflag == kDynamics && !behind_a_run &&
+         (inits > 1 || update.ntimestep != update.firststep);
 }
 
 bool RerunWatch::sees_snapshot(const Update &update)

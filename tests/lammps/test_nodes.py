@@ -223,6 +223,11 @@ def test_renumbered(folder):
                        ("reset_atom_ids sort yes\n", "other atoms may have these IDs now")):
         lmp.refused(f"nodes that were displaced after {text.strip()}", head + text + "displace_atoms nodes move 0 0 0.3\nrun 0\n", folder,
                     says, "delete_atoms and reset_atom_ids give atoms different IDs")
+    # Behind a part of a run write_data initialises fixes while LAMMPS says that a run goes on.
+    parts = keep + "velocity nodes set 0 0 1\nfix go nodes nve\nrun 4 every 2 {} {} {}\n"
+    for reset in ("reset_atom_ids", "reset_atom_ids sort yes"):
+        at_most(f"nodes that have other IDs after {reset} in a run, before write_data",
+                abs(force(parts.format(f'"{reset}"', '"write_data one.data nocoeff"', '"write_data two.data nocoeff"'), 0.244) + 20), 1e-9)
     # Without a setup LAMMPS says nothing of the commands before it.
     lmp.run_well(head + "delete_atoms group grains\nrun 1 pre no\n" + PRESS.format(z=0.24), folder)
     at_most("and after a run without setup", abs(lmp.read_rows(folder / "out.txt")[0][0] + 20), 1e-9)
