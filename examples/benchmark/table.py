@@ -4,7 +4,7 @@
 
 """The tables of doc/benchmark.md, and its figures silo.png, drum.png and impact.png, from a folder of results.
 
-The folder has what the decks write as CASE_FILLING.csv and CASE_FILLING.log, where CASE is silo_large_m1, silo_small_m1, silo_large_m2, drum,
+The folder has the logs of the decks as CASE_FILLING.log, where CASE is silo_large_m1, silo_small_m1, silo_large_m2, drum,
 impact_25, impact_50, impact_100 or impact_loose100, and FILLING a number; cut_100, cut_even and cut_slivers are of a silo of 25 sides. What
 is missing is left out, and a case without results has no figure. --others is a folder with the curves of LIGGGHTS and
 MUSEN in silo.csv, drum.csv and impact.csv, which the figures show beside ours.
@@ -22,18 +22,29 @@ import runs    # noqa: E402
 
 
 def read(path):
-    """Columns by name. A last line that a run which was cut off has not finished is left out."""
-    titles, *lines = path.read_text().splitlines()
-    titles = titles.split(",")
-    rows = [line.split(",") for line in lines]
-    rows = [[float(x) if x else np.nan for x in row] for row in rows if len(row) == len(titles)]
-    return dict(zip(titles, np.array(rows).reshape(-1, len(titles)).T))
+    """Columns by name, of CSV."""
+    titles, *lines = (line.split(",") for line in path.read_text().splitlines())
+    return dict(zip(titles, np.array([[float(x) if x else np.nan for x in line] for line in lines]).T))
+
+
+def read_log(path):
+    """Columns of LAMMPS's output by name, `above` for v_above, and t, the time. Runs that follow one another are joined. A last line that a
+    run which was cut off has not finished is left out."""
+    titles, rows = [], {}
+    for line in path.read_text(errors="replace").splitlines(keepends=True):
+        words = line.split()
+        if words[:1] == ["Step"]:
+            titles = [word.removeprefix("v_") for word in words]
+        elif line.endswith("\n") and len(words) == len(titles) and re.fullmatch(r"(\s*[-+]?\d\S*)+\s*", line):
+            rows[words[0]] = [float(word) for word in words]
+    columns = dict(zip(titles, np.array(list(rows.values())).reshape(-1, len(titles)).T))
+    return {"t": columns.get("Time", np.empty(0)), **columns}
 
 
 def fillings(folder, case, until=0.0):
     """Of each filling of a case, its columns, if it came to the time `until`, but for the last row that it would have written."""
-    paths = sorted(p for p in folder.glob(f"{case}_*.csv") if re.fullmatch(rf"{case}_\d+", p.stem))
-    return [columns for columns in map(read, paths) if len(columns["t"]) > 1 and 2 * columns["t"][-1] - columns["t"][-2] >= until]
+    paths = sorted(p for p in folder.glob(f"{case}_*.log") if re.fullmatch(rf"{case}_\d+", p.stem))
+    return [columns for columns in map(read_log, paths) if len(columns["t"]) > 1 and 2 * columns["t"][-1] - columns["t"][-2] >= until]
 
 
 def rate(columns, name="above", first=0.5, last=3.5):
@@ -65,15 +76,15 @@ def answers(folder, last, others):
         again = f"-, {rate(curves, 'large_musen', last=last) / rate(curves, 'small_musen', last=last):.2f}" if curves else ""
         rows.append(["silo: large over small", f"{mean['silo_large_m1'] / mean['silo_small_m1']:.2f}", "3.10 +- 0.06", again])
     for cut in ("100", "even", "slivers"):
-        for c in [read(path) for path in folder.glob(f"cut_{cut}.csv")]:
+        for c in [read_log(path) for path in folder.glob(f"cut_{cut}.log")]:
             parts = [rate(c, first=t / 10, last=t / 10 + 0.1) for t in range(3, 9)]
             rows.append([f"silo of 25 sides, {cut} triangles, 0.3 to 0.9 s", f"{rate(c, first=0.3, last=0.9):.2f} +- {np.std(parts, ddof=1) / 6**0.5:.2f} (parts of 0.1 s)", "", ""])
     for what, sign, first, end, again in (("drum: first maximum of M1 in zone 2, at s", 1, 0, 1, ("0.6, 0.6", "22 861, 23 064")),
                                           ("drum: its minimum, at s", -1, 1, 1.7, ("1.5, 1.5", "21, 22"))):
         peaks = []
         for c in fillings(folder, "drum", end):
-            at = np.argmax(np.where((c["t"] > first) & (c["t"] < 2), sign * c["z2_m1"], -np.inf))
-            peaks.append((c["t"][at], c["z2_m1"][at]))
+            at = np.argmax(np.where((c["t"] > first) & (c["t"] < 2), sign * c["m1_two"], -np.inf))
+            peaks.append((c["t"][at], c["m1_two"][at]))
         for k, (words, digits) in enumerate(((what, 2), ("... grains", 0))):
             if peaks:
                 rows.append([words, said([p[k] for p in peaks], digits), "", again[k]])
@@ -107,7 +118,7 @@ def curve(axes, columns, name, label, style, scale=1.0, shift=0.0):
 def draw(folder, out, others):
     of = {name: read(others / f"{name}.csv") if others else None for name in ("silo", "drum", "impact")}
     out.mkdir(parents=True, exist_ok=True)
-    if any(folder.glob("silo_*.csv")):
+    if any(folder.glob("silo_*.log")):
         with runs.plot(out / "silo.png", "time / s", "1000 grains above the lip") as axes:
             for case, label, style in (("silo_large_m1", "large, M1", "C0-"), ("silo_large_m2", "large, M2", "C2-"), ("silo_small_m1", "small, M1", "C1-")):
                 for columns in fillings(folder, case)[:1]:
@@ -116,15 +127,16 @@ def draw(folder, out, others):
                 if of["silo"]:
                     curve(axes, of["silo"], name, label or None, style, 1e-3)
             axes.legend()
-    if any(folder.glob("drum_*.csv")):
+    if any(folder.glob("drum_*.log")):
         with runs.plot(out / "drum.png", "time / s", "grains in the zone") as axes:
-            for name, label, style in (("z2_m1", "M1, zone 2", "C0-"), ("z1_m1", "M1, zone 1", "C1-"), ("z2_m2", "M2, zone 2", "C2-"), ("z1_m2", "M2, zone 1", "C3-")):
+            for k, (kind, zone) in enumerate((("m1", "two"), ("m1", "one"), ("m2", "two"), ("m2", "one"))):
+                number = 1 if zone == "one" else 2
                 for columns in fillings(folder, "drum")[:1]:
-                    curve(axes, columns, name, label, style)
+                    curve(axes, columns, f"{kind}_{zone}", f"{kind.upper()}, zone {number}", f"C{k}-")
                 if of["drum"]:
-                    curve(axes, of["drum"], f"{name}_liggghts", "LIGGGHTS" if name == "z2_m1" else None, "k+")
+                    curve(axes, of["drum"], f"z{number}_{kind}_liggghts", None if k else "LIGGGHTS", "k+")
             axes.legend()
-    if any(folder.glob("impact_*.csv")):
+    if any(folder.glob("impact_*.log")):
         with runs.plot(out / "impact.png", "time / s", "height of the ball less that at the start / mm") as axes:
             for n, style in (("25", "C0"), ("50", "C1"), ("100", "C2"), ("loose100", "C3")):
                 for k, columns in enumerate(fillings(folder, f"impact_{n}")):
