@@ -135,13 +135,14 @@ class law_of_materials : public wall_spec {
 
 TEST_F(law_of_materials, has_the_bits_of_the_words)
 {
-  api::Law adhesive, damped, hot;
+  api::Law adhesive, damped, hot, sticky;
   adhesive.normal = {"jkr"};
   damped.damping = {"tsuji"};
   damped.tangential = {"mindlin", {api::kDerived, 0.5, api::kDerived}};
   damped.rolling = {"sds", {1e4, 1, 0.1}};
   damped.limit_damping = true;
   hot.heat = {"radius", {api::kDerived}};
+  sticky.cohesion = {"sjkr", {50}};
   const struct {
     const char *words;
     api::Materials materials;
@@ -164,6 +165,7 @@ TEST_F(law_of_materials, has_the_bits_of_the_words)
        "1 0.1 limit_damping",
        of("glass"), damped, "si"},
       {"granular material FILE glass heat radius NULL", of("glass"), hot, "si"},
+      {"granular material FILE glass cohesion sjkr 50", of("glass"), sticky, "si"},
   };
   for (const auto &row : rows) {
     const std::vector<double> wanted = of_words(row.words, row.units);
