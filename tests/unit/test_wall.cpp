@@ -480,6 +480,20 @@ TEST_F(wall, whose_mesh_recedes_has_no_snapshots)
                          [&] { scene.step(Step::snapshot, true); }));
 }
 
+// A contact with an image would wear vertices that the mesh does not have, long before they are to move.
+TEST_F(wall, whose_mesh_recedes_is_refused_in_the_step_in_which_its_grid_gets_images)
+{
+  Scene scene(floor.wall("wear archard 1e-4 50 deform every 1000"));
+  PeriodicBox &box = scene.host.simulation;
+  box.periodic[0] = true;
+  scene.add({9.9, 0.2, 0.49});
+  scene.go(1);
+  box.corner.x = -10;
+  box.edge[0].x = 20;
+  EXPECT_TRUE(
+      fails_with("wear cannot move a mesh that has periodic images", [&] { scene.run(1); }));
+}
+
 // Returns a wall of a box with upright sides, and gives the host two dimensions.
 WallSpec upright_in_two_dimensions(FakeHost &host)
 {
