@@ -51,8 +51,7 @@ void FixGravityLsdcdKokkos<DeviceType>::setup(int vflag)
 template <class DeviceType>
 void FixGravityLsdcdKokkos<DeviceType>::post_force(int vflag)
 {
-  if (!lsdcd::kOnCpu<DeviceType>)
-    atoms_of_variables.bring(lmp, variables(), [](const std::string &) {});
+  atoms_of_variables.bring(lmp, variables(), [](const std::string &) {});
   // With `disable` LAMMPS's fix only brings its acceleration up to date.
   const int was_disabled = disable;
   disable = 1;

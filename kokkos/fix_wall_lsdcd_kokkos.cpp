@@ -7,6 +7,7 @@
 
 #include "backend/owned_array.h"
 #include "base/input_words.h"
+#include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/host_fixes.h"
 
 #include "comm.h"
@@ -22,6 +23,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -75,18 +77,27 @@ lsdcd::HostSpheres FixWallLsdcdKokkos<DeviceType>::to_cpu(lsdcd::CpuArrays array
   return spheres_in_atom();
 }
 
+// Does LAMMPS, or mass flow, pack atoms in a run? A process on its own packs none else.
+template <class DeviceType>
+bool FixWallLsdcdKokkos<DeviceType>::atoms_are_packed() const
+{
+  const std::vector<Fix *> fixes = lsdcd::host_fixes(*modify);
+  return comm->nprocs > 1 || std::any_of(fixes.begin(), fixes.end(), [](const Fix *fix) {
+           const auto *const flow = dynamic_cast<const FixMassflowLsdcd *>(fix);
+           return flow && flow->deletes();
+         });
+}
+
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::make_exchange_room()
 {
   if (wall->history().is_with_engine()) {
-    // One more for the offset of an atom's numbers in the message. A process on its own packs
-    // hardly any atom, those that leave a fixed box, and need not look at all of them.
+    // As the form without /kk, which a process takes that has its history on the CPU. Where no atom is packed, nobody need look at all.
     const int n = wall->history().spheres_of_engine();
     lsdcd::Springs &springs = wall->history().in_engine(n);
-    int largest =
-        1 + (comm->nprocs > 1 ? springs.largest_packed_size(n) : springs.most_packed_size());
+    int largest = atoms_are_packed() ? springs.largest_packed_size(n) : springs.most_packed_size();
     MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
-    ask_for_room(largest);
+    ask_for_room(1 + largest);
     return;
   }
   FixWallLsdcd::make_exchange_room();
@@ -223,14 +234,15 @@ void FixWallLsdcdKokkos<DeviceType>::warn_of_rounding()
        "kn), or a box around 0; this warning is shown once");
 }
 
-// Do fixes before this one in the script only add forces, so that their order does not matter?
+// Do fixes before this one in the script only add forces, or look at atoms, so that their order does not matter?
 template <class DeviceType>
 bool FixWallLsdcdKokkos<DeviceType>::others_only_add() const
 {
   for (Fix *fix : lsdcd::host_fixes(*modify)) {
     if (fix == this) break;
     const std::string style = fix->style;
-    const bool only_adds = style.rfind("gravity", 0) == 0 || style.rfind("wall/", 0) == 0;
+    const bool only_adds =
+        style.rfind("gravity", 0) == 0 || style.rfind("wall/", 0) == 0 || style == "massflow/lsdcd";
     if ((modify->get_fix_mask(fix) & POST_FORCE) && !only_adds) return false;
   }
   return true;
@@ -275,11 +287,11 @@ void FixWallLsdcdKokkos<DeviceType>::need_nodes()
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::need_inputs()
 {
-  if (lsdcd::kOnCpu<DeviceType>) return;
   atoms_of_inputs.bring(lmp, spec().inputs, [this](const std::string &name) {
     if (inputs_told.insert(name).second && !spec().brief)
       log("variable '" + name +
-          "' may read atoms, so all are copied to the CPU in each step that reads it");
+          "' may read atoms, so all are copied to LAMMPS's arrays on the CPU in each step that "
+          "reads it");
   });
 }
 

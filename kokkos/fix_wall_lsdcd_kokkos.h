@@ -56,6 +56,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void log_rounding();
   void warn_of_rounding();
   bool others_only_add() const;
+  bool atoms_are_packed() const;
   int pack_rows(int, const int *, const int *, double *);
   void unpack_rows(int, const int *, const double *);
 

@@ -76,6 +76,9 @@ constexpr bool kOnCpu =
     Kokkos::SpaceAccessibility<Kokkos::HostSpace,
                                typename DeviceType::execution_space::memory_space>::accessible;
 
+// Are LAMMPS's own arrays of atoms those in which Kokkos changes them? Else they are old until a sync(Host).
+constexpr bool kSharesAtoms = kOnCpu<LMPDeviceType> && !kFloatAtoms;
+
 // Do the atoms of a device live on a GPU while messages leave from the host?
 template <class DeviceType>
 bool sends_from_host(LAMMPS_NS::ExecutionSpace space)

@@ -37,15 +37,17 @@ inline bool variable_reads_atoms(LAMMPS_NS::LAMMPS *lmp, const std::string &name
       });
 }
 
-// Brings all atoms to the CPU before variables that may read them are evaluated there, as LAMMPS's own fixes for Kokkos do for all.
+// Brings all atoms to LAMMPS's own arrays before variables that may read them are evaluated there, as LAMMPS's own fixes for Kokkos do for
+// all. A fix with /kk/host needs it, too: others change atoms on the device.
 class VariableAtoms {
  public:
   // At the end of a run: commands behind it may change variables.
   void look_again() { is_known_ = false; }
-  // Before the variables of these names are evaluated, where the newest atoms are on a device. tell(name): of one that may read atoms.
+  // Before the variables of these names are evaluated. tell(name): of one that may read atoms which have to be brought.
   template <class Tell>
   void bring(LAMMPS_NS::LAMMPS *lmp, const std::vector<std::string> &names, const Tell &tell)
   {
+    if (kSharesAtoms) return;
     if (!is_known_) {
       reads_ = false;
       for (const std::string &name : names) {

@@ -52,6 +52,7 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   void restart(char *) override;
 
   const std::string &mesh_file() const { return settings.surface.file; }
+  bool deletes() const { return settings.deletes; }
 
  protected:
   enum : unsigned { kCounted = 1, kToDelete = 2 };
@@ -119,7 +120,7 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   // With the keyword file: passages of this process that are not in it yet.
   std::unique_ptr<lsdcd::PassFile> rows;
   std::vector<lsdcd::Passage> passages;
-  std::int64_t rows_before = 0;    // that a restart file tells of
+  bool goes_on = false;    // from a restart file
 
   lsdcd::WeldedMesh read_mesh();
   void check_size(const lsdcd::WeldedMesh &) const;

@@ -62,9 +62,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
     Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "wall/lsdcd")
 {
 #if __has_include("atom_masks.h")
-  // All that a host with its atoms on a GPU has to bring for this fix, and take back.
-  datamask_read = X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TAG_MASK |
-                  TYPE_MASK | F_MASK | TORQUE_MASK;
+  // A host with its atoms on a GPU brings all for this fix, as variables, nodes and ellipsoids may read any, and takes these back.
   datamask_modify = F_MASK | TORQUE_MASK;
 #endif
   check_atoms();

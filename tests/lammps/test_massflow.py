@@ -194,13 +194,6 @@ def test_rows(folder):
     lmp.run_well(text, folder, 2)
     lmp.run_well(SETTINGS + "read_restart mid.restart\n" + forces("file rows.txt") + "run 116\n", folder)
     fact("a restart goes on in the file", [row[:1] + row[2:] for row in rows_of(folder / "rows.txt")] == [row[:1] + row[2:] for row in expected])
-    # From here on steps have other numbers, and a second restart comes before their first row.
-    anew = SETTINGS + "read_restart {}.restart\nreset_timestep {}\n" + forces("file rows.txt")
-    lmp.run_well(anew.format("mid", 0) + "run 8\nwrite_restart again.restart\nrun 92\n", folder)
-    lmp.run_well(anew.format("again", 3) + "run 108\n", folder)
-    fact("a restart keeps the rows of steps that LAMMPS counts anew since",
-         [[row[0] - 49 * (row[0] > 44), *row[2:]] for row in expected] == [row[:1] + row[2:] for row in rows_of(folder / "rows.txt")],
-         str([row[0] for row in rows_of(folder / "rows.txt")]))
     lmp.run_well(begin() + wide + forces("file rows.txt") + "run 40\n", folder)
     fact("without a restart the file begins anew", rows_of(folder / "rows.txt") == [row for row in expected if row[0] <= 40])
     # Down, up through the plate, and down again; of several only the first pass counts.
@@ -432,6 +425,35 @@ run             100
     fact("as many", rows[0][1] == rows[1][1], str(rows))
     # Sums in another order, which 100 steps of a gas that hits let grow; without the springs of one grain it is 3e-5.
     at_most("kinetic energy as of the plain forms", abs(rows[0][2] / rows[1][2] - 1), 1e-9)
+
+
+@lmp.of_kokkos
+def test_memory(folder):
+    """Deleted grains take the room of the contacts that they have, and not that of as many as a grain may have: 29 kB each, of two arrays on a GPU."""
+    stl.write(folder / "floor.stl", stl.sheet(2, lambda i, j: (120 * i - 10, 120 * j - 10, -0.5)))
+    stl.write(folder / "sheet.stl", stl.sheet(2, lambda i, j: (101 * i - 0.5, 101 * j - 0.5, 1)))
+    used = []
+    for law in ("hooke", "hooke/history"):
+        output = lmp.run_well(lmp.head("0 100 0 100 -1 3", "p p f") + f"""\
+lattice         sc 1.0
+region          in block 0.2 99.8 0.2 99.8 1.4 2.1
+create_atoms    1 region in
+set             group all diameter 0.5 density 1
+velocity        all set 0 0 -1
+""" + lmp.pairs("zero 1.0") + f"""\
+fix             move all nve/sphere
+fix             wall all wall/lsdcd {law} 1e4 NULL 50 NULL 0.4 1 mesh floor.stl
+fix             m all massflow/lsdcd mesh sheet.stl delete yes
+timestep        0.02
+thermo          120
+thermo_style    custom step atoms f_m[7]
+run             120
+info            memory
+""", folder)
+        rows = lmp.read_thermo(output)
+        fact(f"{law}: all are deleted", rows[-1][1:] == [0, rows[0][1]] and rows[0][1] > 9000, str(rows))
+        used.append(float(re.search(r"Maximum resident set size: *([0-9.]+) Mbyte", output).group(1)))
+    at_most("MB more than without springs", used[1] - used[0], 64)
 
 
 @lmp.of_kokkos
