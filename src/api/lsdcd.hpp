@@ -1070,14 +1070,18 @@ inline Law Law::from_material(const Materials &materials, Law with, std::string 
   const char *told = nullptr;
   c::check(lsdcd_law_from_material(&from, &law, &told));
   if (report) *report = told;
+  // All of its members: one that is new does not compile before it is here.
+  const auto &[size, style, normal, tangential, damping, rolling, twisting, heat, cohesion,
+               limit_damping] = law;
   Law out;
-  out.normal = c::model_of(law.normal, "normal");
-  out.tangential = c::model_of(law.tangential, "tangential");
-  out.damping = c::model_of(law.damping, "damping");
-  out.rolling = c::model_of(law.rolling, "rolling");
-  out.twisting = c::model_of(law.twisting, "twisting");
-  out.heat = c::model_of(law.heat, "heat");
-  out.limit_damping = law.limit_damping != 0;
+  out.normal = c::model_of(normal, "normal");
+  out.tangential = c::model_of(tangential, "tangential");
+  out.damping = c::model_of(damping, "damping");
+  out.rolling = c::model_of(rolling, "rolling");
+  out.twisting = c::model_of(twisting, "twisting");
+  out.heat = c::model_of(heat, "heat");
+  out.cohesion = c::model_of(cohesion, "cohesion");
+  out.limit_damping = limit_damping != 0;
   return out;
 }
 inline Law Law::from_material(const Materials &materials, std::string *report)

@@ -198,10 +198,13 @@ void read_setting(const Kind &kind, Given given, const std::string &field, T &to
   }
 }
 
-void add_laws(const lsdcd_wall_mesh &given, const std::string &field, MeshSpec &mesh)
+// `limited`: the law of the wall has limit_damping, which then holds for those of its meshes, too.
+void add_laws(const lsdcd_wall_mesh &given, const std::string &field, bool limited, MeshSpec &mesh)
 {
   const auto add = [&](const lsdcd_law *law, const std::string &of, int first, int last) {
-    const NamedLaw made = law_of(law, of);
+    NamedLaw made = law_of(law, of);
+    if (limited && !made.law.limit_damping && !made.law.is_classic()) made.name += " limit_damping";
+    made.law.limit_damping = made.law.limit_damping || limited;
     mesh.laws.push_back({first, last, made.law, made.name});
   };
   if (given.law) add(given.law, field + ".law", LawOfTypes().first_type, kAnyType);
@@ -262,7 +265,7 @@ MeshSpec mesh_spec_of(const lsdcd_wall_mesh &given, std::size_t k, const WallSpe
   mesh.weld = 0;    // it is welded
   mesh.name = given.name && *given.name ? given.name : "mesh " + std::to_string(k + 1);
   mesh.placement = placement_of(given.placement, field + ".placement");
-  add_laws(given, field, mesh);
+  add_laws(given, field, wall.law().limit_damping, mesh);
   read_motion(given, field, mesh);
   read_surface(given, field, mesh);
   mesh.temperature = checked_number(given.temperature, field + ".temperature");

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <tuple>
@@ -21,14 +20,19 @@ namespace {
 
 const char *const kPassHeader = "# step time id type diameter x y z vx vy vz direction\n";
 
-// The header and the whole rows of a file up to a step.
-std::string rows_until(const std::string &path, std::int64_t step)
+// The header and the first `n` whole rows of a file, or all where there are fewer: `n` becomes how many. Steps do not tell
+// which ones these are, as the host may count them anew.
+std::string first_rows(const std::string &path, std::int64_t &n)
 {
   std::string kept = kPassHeader, line;
   std::ifstream file(path);
-  while (std::getline(file, line) && !file.eof())
-    if (!line.empty() && line[0] != '#' && std::strtoll(line.c_str(), nullptr, 10) <= step)
-      kept += line + '\n';
+  std::int64_t rows = 0;
+  while (rows < n && std::getline(file, line) && !file.eof()) {
+    if (line.empty() || line[0] == '#') continue;
+    kept += line + '\n';
+    rows++;
+  }
+  n = rows;
   return kept;
 }
 
@@ -39,11 +43,12 @@ std::string whole_text(Real number)
 
 }    // namespace
 
-void PassFile::open(std::int64_t last_step)
+void PassFile::open(std::int64_t kept)
 {
-  if (last_step >= 0) write_whole_file(path_, rows_until(path_, last_step));
-  file_.reset(std::fopen(path_.c_str(), last_step >= 0 ? "a" : "w"));
-  if (!file_ || (last_step < 0 && std::fputs(kPassHeader, file_.get()) < 0) ||
+  rows_ = kept;
+  if (kept > 0) write_whole_file(path_, first_rows(path_, rows_));
+  file_.reset(std::fopen(path_.c_str(), kept > 0 ? "a" : "w"));
+  if (!file_ || (kept == 0 && std::fputs(kPassHeader, file_.get()) < 0) ||
       std::fflush(file_.get()) != 0)
     throw InputError(path_ + ": cannot be written: " + std::strerror(errno) +
                      "; give the keyword file a name in a folder that is there");
@@ -62,6 +67,7 @@ bool PassFile::add(std::vector<Passage> rows)
       text += ' ' + exact_text(number);
     text += ' ' + whole_text(p.direction) + '\n';
   }
+  rows_ += static_cast<std::int64_t>(rows.size());
   return std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size() &&
          std::fflush(file_.get()) == 0;
 }

@@ -29,10 +29,11 @@ class PassFile {
  public:
   explicit PassFile(std::string path) : path_(std::move(path)) {}
 
-  // Throws InputError if the file cannot be written. `last_step` >= 0: the rows that are there up to this step stay, as
-  // those of the run that goes on; else the file begins anew.
-  void open(std::int64_t last_step);
+  // Throws InputError if the file cannot be written. The first `kept` rows that are there stay, as those of the run that
+  // goes on; 0: the file begins anew.
+  void open(std::int64_t kept);
   bool is_open() const { return file_ != nullptr; }
+  std::int64_t rows() const { return rows_; }
   // Adds rows, which no later call may precede. Returns false if not all could be written.
   bool add(std::vector<Passage> rows);
 
@@ -41,6 +42,7 @@ class PassFile {
     void operator()(std::FILE *file) const { std::fclose(file); }
   };
   std::string path_;
+  std::int64_t rows_ = 0;
   std::unique_ptr<std::FILE, Close> file_;
 };
 

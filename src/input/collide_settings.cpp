@@ -16,7 +16,7 @@ const char *const kCollideSyntax =
     "compute ID group lsdcd/collide FIX_ID mesh FILE [scale s | sx sy sz] [rotate ax ay az "
     "degrees] "
     "[move x y z] [weld tol] [bodies one | molecule] [atoms FILE] [grid L | auto] [nearest N | "
-    "all] [memory MB] "
+    "all] [memory M] "
     "[device cpu | cuda | auto] [log full | brief]";
 
 // False where the word is no keyword.
@@ -36,7 +36,7 @@ bool read_word(const std::string &word, Tokens &w, CollideSettings &s)
     w.set_context("nearest", "nearest N | all");
     s.nearest = read_nearest(w);
   } else if (word == "memory") {
-    w.set_context("memory", "memory MB");
+    w.set_context("memory", "memory M");
     s.memory = read_memory(w);
   } else if (word == "device") {
     w.set_context("device", "device cpu | cuda | auto");

@@ -213,7 +213,7 @@ std::string first_value(const std::string &values)
 #define LSDCD_NO_KEYWORD(...)
 
 const Keyword kKeywords[] = {
-    {"mesh", "FILE", "", "STL, OBJ, PLY, OFF", "required",
+    {"mesh", "FILE", "", "STL, OBJ, PLY, OFF", "",
      "the wall; more of them, each with its own keywords after it", nullptr, read_mesh},
     {"scale", "s | sx sy sz", "", "not 0", "1",
      "multiply coordinates; scale, rotate and move act in the order given", nullptr, read_scale},

@@ -19,7 +19,7 @@ struct Keyword {
   const char *values;
   const char *unit;
   const char *range;
-  const char *fallback;
+  const char *fallback;    // empty: required
   const char *help;
   void (*read)(Tokens &, WallCommand &);    // null: of a mesh
   // Variables become inputs. Null: of the wall.

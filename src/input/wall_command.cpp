@@ -200,7 +200,7 @@ std::string wall_help()
     std::string facts;
     for (const char *fact : {row.unit, row.range})
       if (*fact) facts += std::string(fact) + "; ";
-    help += line + " (" + facts + "default " + row.fallback + ")\n";
+    help += line + " (" + facts + (*row.fallback ? "default " : "required") + row.fallback + ")\n";
   }
   return help;
 }

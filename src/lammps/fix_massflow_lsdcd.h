@@ -120,7 +120,7 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   // With the keyword file: passages of this process that are not in it yet.
   std::unique_ptr<lsdcd::PassFile> rows;
   std::vector<lsdcd::Passage> passages;
-  bool goes_on = false;    // from a restart file
+  std::int64_t rows_before = 0;    // that a restart file tells of
 
   lsdcd::WeldedMesh read_mesh();
   void check_size(const lsdcd::WeldedMesh &) const;

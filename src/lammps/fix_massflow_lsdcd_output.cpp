@@ -49,8 +49,7 @@ void FixMassflowLsdcd::open_rows()
             ": give each its own");
   }
   rows = std::make_unique<lsdcd::PassFile>(settings.file);
-  if (comm->me == 0)
-    run_core_here([&] { rows->open(goes_on ? static_cast<std::int64_t>(update->ntimestep) : -1); });
+  if (comm->me == 0) run_core_here([&] { rows->open(rows_before); });
 }
 
 void FixMassflowLsdcd::keep_row(lsdcd::Passage row, lsdcd::Passes passes)
@@ -120,13 +119,14 @@ void FixMassflowLsdcd::write_restart(FILE *file)
   lsdcd::State state(kKind);
   state.add("totals", 1, totals);
   state.add("rate", 1, window);
+  const std::int64_t n_rows = rows ? rows->rows() : rows_before;
+  if (n_rows > 0) state.add("rows", 1, n_rows);
   write_state(file, state);
 }
 
 // The first process keeps the totals.
 void FixMassflowLsdcd::restart(char *buffer)
 {
-  goes_on = true;
   const auto *numbers = reinterpret_cast<const double *>(buffer);
   std::vector<double> there;
   Window then;
@@ -134,6 +134,7 @@ void FixMassflowLsdcd::restart(char *buffer)
     const lsdcd::State state(kKind, numbers, kAllNumbers);
     state.read("totals", 1, there);
     state.read("rate", 1, then);
+    state.find("rows", 1, rows_before);
     const std::string unread = unread_state(state);
     if (!unread.empty()) warn(unread);
   } catch (const lsdcd::StateError &e) {

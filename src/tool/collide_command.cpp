@@ -178,7 +178,7 @@ void collide(const CollideOptions &o)
 void add_options(Command &command, CollideOptions &o)
 {
   command.option("wall", o.wall, "mesh: .stl, .obj, .ply or .off").required();
-  command.option("body", o.body, "STL file of the rigid body").required();
+  command.option("body", o.body, "mesh of the rigid body").required();
   Option one = command.option(
       "--pose", o.pose,
       "where the body is: x y z, x y z qw qx qy qz, or 12 numbers (default: as it is)");

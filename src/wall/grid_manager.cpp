@@ -107,6 +107,7 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
   for (MeshPart *m : anew) {
     m->grid.progress = progress(*m);
     m->grid.build(wanted, m->effective_box(box()));
+    m->surface->check_grid();
     if (!m->nodes()) run_collectively(host_, true, [&] { put_grid(*m); });
     coats_.set_grid(*m);
   }
@@ -127,6 +128,7 @@ void GridManager::follow_surface(MeshPart &m)
   times_.begin();
   m.grid.progress = progress(m);
   m.grid.build(cutoff(), m.effective_box(box()));
+  m.surface->check_grid();
   run_collectively(host_, true, [&] { put_grid(m); });
   coats_.set_grid(m);
   times_.end(TimeReport::grids);

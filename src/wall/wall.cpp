@@ -385,7 +385,7 @@ void Wall::choose_if_due(const Spheres &spheres)
 void Wall::change_surfaces(const Step &step)
 {
   for (MeshPart *m : changing_) {
-    if (!m->surface->change(step, cutoff())) continue;
+    if (!m->surface->change(step)) continue;
     grids_.follow_surface(*m);
     engine_->expire_choice();
     if (!spec_.energy) continue;

@@ -60,9 +60,9 @@ def head(box="", boundary="f f f", style="sphere", modify="map array", newton="o
         lines(region=box and f"box {shape} {box}", create_box=box and f"{types} box")
 
 
-def pairs(style="zero 1.2", skin=0.3, neigh="delay 0 every 1 check yes"):
+def pairs(style="zero 1.2", skin=0.3, neigh="delay 0 every 1 check yes", coeff=""):
     """Pairs of spheres, which feel nothing of each other if no other style is given, and the neighbour lists."""
-    return lines(pair_style=style, pair_coeff="* *", neighbor=f"{skin} bin", neigh_modify=neigh)
+    return lines(pair_style=style, pair_coeff=f"* * {coeff}".rstrip(), neighbor=f"{skin} bin", neigh_modify=neigh)
 
 
 # Spheres of diameter 1 in a box of side 6: with nothing that moves them, and with it.

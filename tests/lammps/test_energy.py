@@ -64,32 +64,38 @@ def nothing_but(book, size, *names, least=1e-12):
 E = 0.5
 
 
-def bounce(folder, per_contact):
-    """A sphere that falls onto the floor at speed 1 with a restitution of 0.5; contacts of linear springs last pi/w."""
-    kn, ln_e = 1e4, math.log(E)
-    gamma = -2 * ln_e / math.sqrt(math.pi ** 2 + ln_e ** 2) * math.sqrt(kn)    # of the velocity, over the mass
-    dt = math.pi / math.sqrt(kn - gamma ** 2 / 4) / per_contact
-    # Touch falls anywhere within a step: of 8 bounces each begins another eighth of a step later.
-    return [books(folder, f"hooke {kn} NULL {gamma!r} NULL 0 0", dt, f"run {3 * per_contact}", v="0 0 -1",
-                  x=f"0.3 0.2 {0.5 + (5 + k / 8) * dt!r}") for k in range(8)]
+def check_bounces(falls, half, check):
+    """What books find of bounces with a restitution of 0.5. falls(n): the last rows of 8 with n steps a contact, each of which begins another eighth of a
+    step later, as touch falls anywhere within a step; `half`: their m v^2/2; check(n, row): what else holds for each.
 
-
-def test_bounce(folder):
-    """It loses 0.75 m v^2/2 by damping. What the books do not find is of the step in which the sphere comes: k d (v dt - d)/2 for
-    an overlap d there, v dt/12 k v dt on average, and e^2 of that as it leaves."""
-    half, means = 0.5, {}
+    The books do not find what the step has in which the sphere comes: k d (v dt - d)/2 for an overlap d there, v dt/12 k v dt on average, and e^2 of that
+    as it leaves."""
+    means = {}
     for n in (25, 50, 100, 200):
-        rows = bounce(folder, n)
+        rows = falls(n)
         means[n] = sum(r["remainder"] for r in rows) / 8 / half
         for r in rows:
-            at_most(f"{n} steps: energy that is lost, and the change of kinetic energy", abs(r["work"] - (half - r["ke"])), 1e-12)
+            check(n, r)
             nothing_but(r, half, "damping")
         if n == 200:
             close("a bounce loses", rows[0]["damping"] / half, 1 - E ** 2, 1, 0.01)
+    print("remainders over m v^2/2:", means)
     for n in (25, 50, 100):
         close(f"the remainder falls with dt^2 from {n} steps on", means[n] / means[2 * n], 4, 4, 0.1)
-    print("remainders over m v^2/2:", means)
     at_most("at 25 steps a contact it is below k (v dt)^2/8 at both ends", abs(means[25]), 2 * (math.pi / 25) ** 2 / 4)
+
+
+def test_bounce(folder):
+    """A sphere that falls onto the floor at speed 1 loses 0.75 m v^2/2 by damping; contacts of linear springs last pi/w."""
+    kn, ln_e = 1e4, math.log(E)
+    gamma = -2 * ln_e / math.sqrt(math.pi ** 2 + ln_e ** 2) * math.sqrt(kn)    # of the velocity, over the mass
+
+    def falls(n):
+        dt = math.pi / math.sqrt(kn - gamma ** 2 / 4) / n
+        return [books(folder, f"hooke {kn} NULL {gamma!r} NULL 0 0", dt, f"run {3 * n}", v="0 0 -1", x=f"0.3 0.2 {0.5 + (5 + k / 8) * dt!r}")
+                for k in range(8)]
+    check_bounces(falls, 0.5, lambda n, r: at_most(f"{n} steps: energy that is lost, and the change of kinetic energy",
+                                                   abs(r["work"] - (0.5 - r["ke"])), 1e-12))
 
 
 def test_ways_to_leave(folder):
@@ -337,26 +343,21 @@ def test_bounce_off_a_body(folder):
     close("the remainder falls with dt^2", means[50] / means[100], 4, 4, 0.1)
 
 
-CASK = """\
-units           lj
-atom_style      sphere
-atom_modify     map array
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -2 2 -2 2 -2 2
-create_box      1 box
-lattice         sc 20
-region          in block -0.7 0.7 -0.7 0.7 -0.7 0.7 units box
+def cask(spacing, half, pairs, wall):
+    """Grains in a cask, cask.stl: a cubic lattice from -half to half. `pairs`: lines of these; `wall`: words of the mesh's wall."""
+    return lmp.head("-2 2 -2 2 -2 2") + f"""\
+lattice         sc {spacing}
+region          in block {-half} {half} {-half} {half} {-half} {half} units box
 create_atoms    1 region in
 set             group all diameter 0.2 mass 1
-velocity        all create 2.0 4711
-pair_style      zero 0.3
-pair_coeff      * *
+""" + pairs + f"""\
 fix             move all nve/sphere
 fix             g all gravity 1 vector 0 0 -1
-fix             wall all wall/lsdcd {law} mesh cask.stl {words} energy
-""" + TELL
+fix             wall all wall/lsdcd {wall} energy
+"""
+
+
+CASK = cask(20, 0.7, "velocity        all create 2.0 4711\n" + lmp.pairs("zero 0.3"), "{law} mesh cask.stl {words}") + TELL
 CASK_LAW = "granular hooke 1e4 5 damping mass_velocity tangential linear_history 5e3 1 0.4 rolling sds 50 0.1 0.05 twisting sds 5 0 0.01"
 
 

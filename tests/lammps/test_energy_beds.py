@@ -10,7 +10,7 @@ import math
 import lmp
 import stl
 from facts import at_most, fact
-from test_energy import CAUSES, COLUMNS, MASS, MILL_K, MILL_LAW, NAMES, close
+from test_energy import CASK_LAW, CAUSES, COLUMNS, MASS, MILL_K, MILL_LAW, NAMES, cask, close
 
 END = """\
 compute         books all lsdcd/energy
@@ -123,32 +123,13 @@ def test_membrane(folder):
     closes(folder, MEMBRANE, math.pi * math.sqrt(MASS / 2 / MILL_K), 0.4 if lmp.QUICK else 1.0, law=MILL_LAW.replace("granular ", ""))
 
 
-CASK_LAW = "hooke 1e4 5 damping mass_velocity tangential linear_history 5e3 1 0.4 rolling sds 50 0.1 0.05 twisting sds 5 0 0.01"
-CASK = """\
-units           lj
-atom_style      sphere
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -2 2 -2 2 -2 2
-create_box      1 box
-lattice         sc 60
-region          in block -0.6 0.6 -0.6 0.6 -0.6 0.6 units box
-create_atoms    1 region in
-set             group all diameter 0.2 mass 1
-pair_style      granular/lsdcd
-pair_coeff      * * {law}
-neighbor        0.05 bin
-neigh_modify    delay 0 every 1 check yes
-fix             move all nve/sphere
-fix             g all gravity 1 vector 0 0 -1
-fix             wall all wall/lsdcd granular {law} mesh cask.stl motion rotate 0 0 0 0 1 0 8 wear archard 3e-3 50 deform every 10 energy
-""" + END
+CASK = cask(60, 0.6, lmp.pairs("granular/lsdcd", 0.05, coeff="{law}"), "granular {law} mesh cask.stl motion rotate 0 0 0 0 1 0 8 "
+            "wear archard 3e-3 50 deform every 10") + END
 
 
 def test_cask_that_wears(folder):
     """A closed cask that turns and wears: what its surface takes from contacts as it goes back is a part of the work of its drive that counts."""
     wear = "f_wall[75]"
     stl.write(folder / "cask.stl", stl.box((-1, -1, -1), (1, 1, 1), 6))
-    b = closes(folder, CASK, math.pi / math.sqrt(2e4), 2 if lmp.QUICK else 6, (wear,), law=CASK_LAW)
+    b = closes(folder, CASK, math.pi / math.sqrt(2e4), 2 if lmp.QUICK else 6, (wear,), law=CASK_LAW.replace("granular ", ""))
     fact("wear takes more than 1 % of it", b[wear] > 0.01 * b["drive"], b[wear] / b["drive"])

@@ -22,7 +22,7 @@ def test_launcher(folder):
                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     fact("-h succeeds and shows the fix", shown.returncode == 0 and
          "wall/lsdcd" in shown.stdout and "corner blend | sum" in shown.stdout)
-    for syntax in ("fix ID group massflow/lsdcd mesh FILE ", "fix ID group insert/lsdcd mesh FILE ",
+    for syntax in ("fix ID group massflow/lsdcd mesh FILE ", "fix ID group insert/lsdcd mesh FILE ", "fix ID group gravity/lsdcd ",
                    "compute ID group lsdcd/collide FIX_ID mesh FILE "):
         fact(f"-h shows {syntax}", "\n" + syntax in shown.stdout)
     fact("-h shows LAMMPS's own options", "-partition" in shown.stdout)

@@ -194,6 +194,13 @@ def test_rows(folder):
     lmp.run_well(text, folder, 2)
     lmp.run_well(SETTINGS + "read_restart mid.restart\n" + forces("file rows.txt") + "run 116\n", folder)
     fact("a restart goes on in the file", [row[:1] + row[2:] for row in rows_of(folder / "rows.txt")] == [row[:1] + row[2:] for row in expected])
+    # From here on steps have other numbers, and a second restart comes before their first row.
+    anew = SETTINGS + "read_restart {}.restart\nreset_timestep {}\n" + forces("file rows.txt")
+    lmp.run_well(anew.format("mid", 0) + "run 8\nwrite_restart again.restart\nrun 92\n", folder)
+    lmp.run_well(anew.format("again", 3) + "run 108\n", folder)
+    fact("a restart keeps the rows of steps that LAMMPS counts anew since",
+         [[row[0] - 49 * (row[0] > 44), *row[2:]] for row in expected] == [row[:1] + row[2:] for row in rows_of(folder / "rows.txt")],
+         str([row[0] for row in rows_of(folder / "rows.txt")]))
     lmp.run_well(begin() + wide + forces("file rows.txt") + "run 40\n", folder)
     fact("without a restart the file begins anew", rows_of(folder / "rows.txt") == [row for row in expected if row[0] <= 40])
     # Down, up through the plate, and down again; of several only the first pass counts.

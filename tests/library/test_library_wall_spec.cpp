@@ -135,13 +135,14 @@ class law_of_materials : public wall_spec {
 
 TEST_F(law_of_materials, has_the_bits_of_the_words)
 {
-  api::Law adhesive, damped, hot;
+  api::Law adhesive, damped, hot, sticky;
   adhesive.normal = {"jkr"};
   damped.damping = {"tsuji"};
   damped.tangential = {"mindlin", {api::kDerived, 0.5, api::kDerived}};
   damped.rolling = {"sds", {1e4, 1, 0.1}};
   damped.limit_damping = true;
   hot.heat = {"radius", {api::kDerived}};
+  sticky.cohesion = {"sjkr", {50}};
   const struct {
     const char *words;
     api::Materials materials;
@@ -164,6 +165,7 @@ TEST_F(law_of_materials, has_the_bits_of_the_words)
        "1 0.1 limit_damping",
        of("glass"), damped, "si"},
       {"granular material FILE glass heat radius NULL", of("glass"), hot, "si"},
+      {"granular material FILE glass cohesion sjkr 50", of("glass"), sticky, "si"},
   };
   for (const auto &row : rows) {
     const std::vector<double> wanted = of_words(row.words, row.units);
@@ -249,6 +251,29 @@ TEST_F(wall_spec, has_laws_for_types_from_1)
   Pile pile;
   pile.type[3] = 0;
   EXPECT_EQ(text_of([&] { pile.go(wall, 1); }), "type[3] is 0, below 1");
+}
+
+// Spheres that leave, whose damping would pull.
+TEST_F(wall_spec, limits_the_damping_of_all_laws_by_that_of_the_wall)
+{
+  const auto hooke = [](double damping) {
+    return api::Law::classic({"hooke", {1000, 300, damping, 0, 0.5, 0}});
+  };
+  api::WallSpec spec = floor(hooke(200));
+  spec.law.limit_damping = true;
+  spec.meshes[0].law = hooke(300);
+  spec.meshes[0].type_laws = {{2, 2, hooke(400)}};
+  lsdcd::ScriptWall by_words(lsdcd::words("hooke 1000 300 200 0 0.5 0 limit_damping mesh " + file_ +
+                                          " device cpu law hooke 1000 300 300 0 0.5 0 law types 2 "
+                                          "hooke 1000 300 400 0 0.5 0"));
+  api::Wall by_spec(spec);
+  Pile one, other;
+  for (Pile *pile : {&one, &other})
+    for (std::size_t k = 2; k < pile->v.size(); k += 3) pile->v[k] = 0.1;
+  const std::vector<double> forces = other.go(by_spec, 1);
+  EXPECT_TRUE(any_nonzero(forces));
+  EXPECT_EQ(forces, one.go(by_words, 1));
+  for (std::size_t k = 2; k < other.force.size(); k += 3) EXPECT_GE(other.force[k], 0);
 }
 
 TEST_F(wall_spec, has_the_bits_of_words_for_changes_of_motion)

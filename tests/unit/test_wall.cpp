@@ -480,6 +480,33 @@ TEST_F(wall, whose_mesh_recedes_has_no_snapshots)
                          [&] { scene.step(Step::snapshot, true); }));
 }
 
+// A contact with an image would wear vertices that the mesh does not have, long before they are to move.
+TEST_F(wall, whose_mesh_recedes_is_refused_in_the_step_in_which_its_grid_gets_images)
+{
+  Scene scene(floor.wall("wear archard 1e-4 50 deform every 1000"));
+  PeriodicBox &box = scene.host.simulation;
+  box.periodic[0] = true;
+  scene.add({9.9, 0.2, 0.49});
+  scene.go(1);
+  box.corner.x = -10;
+  box.edge[0].x = 20;
+  EXPECT_TRUE(
+      fails_with("wear cannot move a mesh that has periodic images", [&] { scene.run(1); }));
+}
+
+// A wall with sjkr's cohesion of 50 energy/length^3, whose pull is that times the area in which the plane cuts the sphere, whatever the
+// unit of pressure is.
+TEST_F(wall, takes_an_energy_of_cohesion_by_volume_in_any_unit_of_pressure)
+{
+  constexpr Real kOverlap = 0.01, kArea = kPi * (2 * kRadius - kOverlap) * kOverlap;
+  WallUnits units;
+  units.pressure = 1.6021765e6;    // of units metal
+  WallScene scene(floor.wall("cohesion sjkr 50"), units);
+  scene.add({0.3, 0.2, kRadius - kOverlap}, kRadius);
+  scene.go(1);
+  EXPECT_NEAR(scene.force[0].z, kN * kOverlap - 50 * kArea, 1e-12);
+}
+
 // Returns a wall of a box with upright sides, and gives the host two dimensions.
 WallSpec upright_in_two_dimensions(FakeHost &host)
 {

@@ -67,11 +67,12 @@ static void show_help(int argc, char **argv)
     if (!std::strcmp(argv[i], "-h") || !std::strcmp(argv[i], "-help")) {
       std::printf(
           "lmp-lsdcd %s: LAMMPS %d with fix wall/lsdcd, fix massflow/lsdcd, "
-          "fix insert/lsdcd, pair_style granular/lsdcd, compute lsdcd/collide, "
+          "fix insert/lsdcd, fix gravity/lsdcd, pair_style granular/lsdcd, compute lsdcd/collide, "
           "compute lsdcd/energy, region mesh/lsdcd and the "
           "plugin command\n\n%s\n"
           "%s\n  counts, weighs or deletes the spheres that pass a mesh\n\n"
           "%s\n  puts grains through a flat mesh or into a region, clear of the walls\n\n"
+          "fix ID group gravity/lsdcd ..., as fix gravity\n  has no wait in each step on a GPU\n\n"
           "pair_style granular/lsdcd [CUTOFF]\n%s\n  the wall's contact laws between grains\n\n"
           "%s\n  counts where rigid bodies with a mesh meet the wall of a fix wall/lsdcd\n\n"
           "compute ID all lsdcd/energy\n  what contacts of pair_style granular/lsdcd dissipate, "

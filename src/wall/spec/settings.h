@@ -47,11 +47,10 @@ constexpr const char *kLogWords[] = {"full", "brief"};
 // fallback, help). WITHOUT_KEYWORD has the first four.
 #define LSDCD_WALL_SETTINGS(SETTING, WITHOUT_KEYWORD)                                              \
   SETTING(cell, grid_length, LengthSetting{}, with_nearest, "grid", "L | auto", "length", "> 0",   \
-          "auto", "cell edge of the limit-space grid")                                             \
+          "auto", "cell edge of the grid")                                                         \
   SETTING(rmax, rmax, LengthSetting{}, with_nearest, "rmax", "R | auto", "length", "> 0",          \
-          "auto: the largest radius in the group",                                                 \
-          "largest particle radius that the grid is built for")                                    \
-  SETTING(memory, memory_budget, MemorySetting{}, with_nearest, "memory", "MB", "MiB", ">= 1",     \
+          "auto: the largest radius in the group", "largest radius that the grid is made for")     \
+  SETTING(memory, memory_budget, MemorySetting{}, with_nearest, "memory", "M", "MiB", ">= 1",      \
           "1024 beside the mesh's own records", "budget for the grid of each mesh")                \
   SETTING(nearest, nearest, NearestSetting{}, compared, "nearest", "all | N", "", "1 to 32",       \
           "all",                                                                                   \
@@ -62,7 +61,7 @@ constexpr const char *kLogWords[] = {"full", "brief"};
           "contacts at one place share their overlap, or their forces simply add")                 \
   SETTING(side, side, word_setting(kSideWords, "LSDCD_BOTH_SIDES, LSDCD_INSIDE or LSDCD_OUTSIDE"), \
           compared, "side", "both | in | out", "", "", "both",                                     \
-          "where particles belong; in and out need a closed, oriented mesh")                       \
+          "where spheres belong; in and out need a closed, oriented mesh")                         \
   SETTING(each_contact, each_contact, FlagSetting{}, free, "each_contact", "", "", "", "off",      \
           "local array with a row for each contact: sphere, mesh, force, point, overlap")          \
   SETTING(average_every, average_every, StepsSetting{"there are no means"}, compared, "average",   \

@@ -15,7 +15,6 @@ WallSpec in_units(WallSpec spec, Real pressure)
       law.k_normal /= pressure;
       law.k_tangent /= pressure;
     }
-    law.cohesion.numbers[0] /= pressure;    // sjkr's
     law.for_shapes = spec.shapes;
     law.keeps_forces = spec.energy;
     law.keeps_at_nodes = spec.energy && spec.has_nodes();

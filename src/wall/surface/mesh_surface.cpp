@@ -39,13 +39,17 @@ class RecedingSurface final : public MeshSurface {
                            "mesh of that time, which mesh_stl writes"));
   }
 
-  bool change(const Step &step, Real cutoff) override
+  void check_grid() const override
   {
-    if (!wear_.is_due(step)) return false;
-    if (cutoff > 0 && grid_.has_images())
+    if (grid_.has_images())
       throw InputError(
           named("wear cannot move a mesh that has periodic images, because its ends would come "
                 "apart: keep it away from periodic faces by the largest radius"));
+  }
+
+  bool change(const Step &step) override
+  {
+    if (!wear_.is_due(step)) return false;
     std::vector<Vec3> at;
     if (!wear_.recede(grid_.mesh(), step.number, at)) return false;
     grid_.move_vertices(at);

@@ -41,10 +41,11 @@ class MeshSurface {
   virtual void check_plane() const {}
   // Throws where it is not known in a snapshot.
   virtual void check_snapshot() const {}
+  // Throws where it cannot change with the grid that was built.
+  virtual void check_grid() const {}
 
-  // Moves vertices where that is due, but nodes. Returns whether it did: then the grid is to be built again. `cutoff`: 0
-  // while there are no spheres. Collective.
-  virtual bool change(const Step & /* step */, Real /* cutoff */) { return false; }
+  // Moves vertices where that is due, but nodes. Returns whether it did: then the grid is to be built again. Collective.
+  virtual bool change(const Step & /* step */) { return false; }
   // Returns by how far change() has moved each vertex (length), where energy is booked; the same on all processes. Else empty.
   virtual std::vector<Vec3> receded() const { return {}; }
   // Begins a step.
