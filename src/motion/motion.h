@@ -97,8 +97,11 @@ class RigidMotion {
   bool moves() const { return !terms_.empty(); }
   // Returns whether it may move the mesh: a motion that was stopped, or whose servo was taken away, does not.
   bool acts() const { return moves() || (servo_.present && !servo_.holds) || is_posed_; }
-  // false: the mesh is as its file has it
-  bool any() const { return moves() || servo_.present || start_.placed || is_posed_; }
+  // false: the mesh is as its file has it, and never moved
+  bool any() const
+  {
+    return moves() || servo_.present || start_.placed || is_posed_ || !stopped_.empty();
+  }
 
   // Returns the pose at time t since the terms began. It depends only on t and the values of variables, so that it is as
   // exact after 1e9 steps as after one. After a whole number of periods a term gives the bits that it began with. A time

@@ -202,7 +202,7 @@ bool is_body(const MeshSpec &m)
 // Also one that was stopped.
 bool has_motion(const MeshSpec &m)
 {
-  return m.motion.moves() || m.motion.start().placed;
+  return m.motion.moves() || m.motion.start().placed || !m.motion.stopped().empty();
 }
 
 bool has(const WallSpec &wall, OutputPart part)

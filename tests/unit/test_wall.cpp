@@ -245,6 +245,26 @@ TEST_F(wall, moves_its_mesh_by_the_inputs_of_a_step)
   EXPECT_EQ(scene.wall->meshes()[0].pose().velocity.z, 0.5);
 }
 
+// A mesh that is stopped where its file has it, before its first step or after a whole period, has no velocity: friction with a
+// sphere that stands still does not grow.
+TEST_F(wall, stands_still_where_its_motion_is_stopped_at_its_begin)
+{
+  constexpr int kPeriod = 4;    // steps
+  for (const int steps : {0, kPeriod}) {
+    WallScene scene(floor.wall("motion wiggle 0.01 0 0 " + std::to_string(kPeriod * kDt)));
+    scene.add({0.3, 0.2, kRadius - 0.01}, kRadius);
+    scene.set_up();
+    scene.run(steps);
+    scene.wall->set_motion(0, RigidMotion(), {scene.now, kDt});
+    ASSERT_TRUE(scene.wall->meshes()[0].pose().shift == (Vec3{0, 0, 0}));
+    scene.run(1);
+    const Vec3 first = scene.force[0];
+    scene.run(1);
+    EXPECT_EQ(scene.force[0].x, first.x) << "after " << steps << " steps";
+    EXPECT_EQ(scene.wall->totals_with_power().mesh(0).power, 0) << "after " << steps << " steps";
+  }
+}
+
 // A square floor that lies turned by an eighth, and is turned back: its vertices reach x = 10, the corners of the box around it 20.
 // It goes on by 0.07 a step until it is too near to the face at 18: in the first step in which it is, and not before.
 TEST_F(wall, refuses_a_mesh_in_the_step_in_which_its_vertices_come_to_a_periodic_face)
