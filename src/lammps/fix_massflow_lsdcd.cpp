@@ -79,6 +79,7 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
   mine.assign(kColumns * atom->ntypes + kAfterTypes, 0.0);
   totals = mine;
   time_seen = simulated_time();    // for a run without setup
+  step_seen = update->ntimestep;
 
   // Last: Atom would call a fix that was refused after this.
   FixMassflowLsdcd::grow_arrays(atom->nmax);
@@ -151,6 +152,7 @@ void FixMassflowLsdcd::setup(int /*vflag*/)
   near_within = neighbor->skin > 0 ? 2 * neighbor->skin : 1e150;
   far = 8 * near_within;
   time_seen = simulated_time();
+  step_seen = update->ntimestep;
   follow_box();
   all_were_seen = look_at_all = true;
   begin_at_atoms();
@@ -197,8 +199,10 @@ void FixMassflowLsdcd::end_of_step()
   look_at_all = false;
   reduced = false;
   const double now = simulated_time();
-  window.time += now - time_seen;
+  // Before a run without setup reset_timestep may have given the step another number, and LAMMPS another time.
+  window.time += update->ntimestep == step_seen + 1 ? now - time_seen : update->dt;
   time_seen = now;
+  step_seen = update->ntimestep;
   // A restart file may bring more steps than this fix averages over.
   if (++window.steps >= settings.every) end_window();
 }

@@ -117,6 +117,7 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
     }
   } window;
   double time_seen = 0;    // LAMMPS's, at the end of the last step
+  bigint step_seen = 0;    // its number
   // With the keyword file: passages of this process that are not in it yet.
   std::unique_ptr<lsdcd::PassFile> rows;
   std::vector<lsdcd::Passage> passages;
