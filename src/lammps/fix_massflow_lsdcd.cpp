@@ -125,6 +125,13 @@ void FixMassflowLsdcd::check_size(const lsdcd::WeldedMesh &mesh) const
   }
 }
 
+std::vector<lsdcd::ScriptFile> FixMassflowLsdcd::files() const
+{
+  std::vector<lsdcd::ScriptFile> all = {{"mesh", settings.surface.file}};
+  if (!settings.file.empty()) all.push_back({"file", settings.file, 0, true});
+  return all;
+}
+
 int FixMassflowLsdcd::setmask()
 {
   return END_OF_STEP | (settings.deletes ? PRE_EXCHANGE : 0) |
@@ -134,7 +141,8 @@ int FixMassflowLsdcd::setmask()
 void FixMassflowLsdcd::init()
 {
   watch.init(*update);
-  open_rows();
+  lsdcd::MpiHost mpi(world);
+  check_files_apart(*this, *modify, mpi, update->ntimestep);
   const std::string late = settings.deletes ? late_pair_springs(*this, *modify) : "";
   if (!late.empty()) fatal(late);
   for (const Fix *fix : lsdcd::host_fixes(*modify))
@@ -143,12 +151,14 @@ void FixMassflowLsdcd::init()
            ", whose rigid bodies they belong to: leave these atoms out of the group");
 }
 
-// Between runs atoms may be put anywhere: only time steps let them pass.
+// Between runs atoms may be put anywhere: only time steps let them pass. The file is opened here and not before, so that a run
+// that is refused leaves the one that there is alone.
 void FixMassflowLsdcd::setup(int /*vflag*/)
 {
   if (watch.sees_snapshot(*update))
     fatal("a rerun has no steps, and what passes between its snapshots is not counted: unfix " +
           std::string(id) + " before it");
+  open_rows();
   near_within = neighbor->skin > 0 ? 2 * neighbor->skin : 1e150;
   far = 8 * near_within;
   time_seen = simulated_time();

@@ -10,6 +10,7 @@
 #include "flow/flow_surface.h"
 #include "flow/pass_file.h"
 #include "input/massflow_settings.h"
+#include "input/script_files.h"
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
 
@@ -51,8 +52,8 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  const std::string &mesh_file() const { return settings.surface.file; }
   bool deletes() const { return settings.deletes; }
+  std::vector<lsdcd::ScriptFile> files() const;    // that it reads and writes
 
  protected:
   enum : unsigned { kCounted = 1, kToDelete = 2 };

@@ -5,13 +5,11 @@
 
 #include "lammps/fix_massflow_lsdcd.h"
 
-#include "lammps/host_fixes.h"
 #include "lammps/mpi_host.h"
 #include "lammps/restart_data.h"
 
 #include "atom.h"
 #include "comm.h"
-#include "modify.h"
 #include "update.h"
 
 #include <algorithm>
@@ -38,16 +36,10 @@ double FixMassflowLsdcd::net_mass()
   return net;
 }
 
-// Begins the file in the first run.
+// Begins the file in the first run, or goes on in it.
 void FixMassflowLsdcd::open_rows()
 {
   if (settings.file.empty() || rows) return;
-  for (const Fix *fix : lsdcd::host_fixes(*modify)) {
-    const auto *other = dynamic_cast<const FixMassflowLsdcd *>(fix);
-    if (other && other != this && other->settings.file == settings.file)
-      fatal("fix " + std::string(other->id) + " has the same file " + settings.file +
-            ": give each its own");
-  }
   rows = std::make_unique<lsdcd::PassFile>(settings.file);
   if (comm->me == 0) run_core_here([&] { rows->open(rows_before); });
 }

@@ -29,15 +29,14 @@ void check_apart(const ScriptFile &file, const ScriptFile &other, const std::str
     return;
   throw lsdcd::InputError("in '" + file.what + "', '" + file.name + "' is " +
                           (file.name == other.name ? "" : "'" + other.name + "', ") + "the " +
-                          other.what + " file that " + of + (other.written ? " writes" : " reads") +
-                          ": name another file");
+                          (other.what == "file" ? "" : other.what + " ") + "file that " + of +
+                          (other.written ? " writes" : " reads") + ": name another file");
 }
 
 std::vector<ScriptFile> files_of_fix(const Fix *fix)
 {
   if (const auto *wall = dynamic_cast<const FixWallLsdcd *>(fix)) return wall->files();
-  if (const auto *flow = dynamic_cast<const FixMassflowLsdcd *>(fix))
-    return {{"mesh", flow->mesh_file()}};
+  if (const auto *flow = dynamic_cast<const FixMassflowLsdcd *>(fix)) return flow->files();
   if (const auto *inlet = dynamic_cast<const FixInsertLsdcd *>(fix))
     if (!inlet->mesh_file().empty()) return {{"mesh", inlet->mesh_file()}};
   return {};
@@ -57,16 +56,15 @@ bool share_atoms(const Fix &a, const Fix &b, const Atom &atom, MPI_Comm world)
 }    // namespace
 
 // The first process looks, as it writes them.
-void LAMMPS_NS::check_files_apart(const FixWallLsdcd &wall, Modify &modify, lsdcd::Host &host,
-                                  bigint step)
+void LAMMPS_NS::check_files_apart(const Fix &of, Modify &modify, lsdcd::Host &host, bigint step)
 {
   lsdcd::run_collectively(host, host.is_first(), [&] {
-    const std::vector<ScriptFile> mine = wall.files();
+    const std::vector<ScriptFile> mine = files_of_fix(&of);
     for (std::size_t i = 0; i < mine.size(); i++)
       for (std::size_t k = 0; k < mine.size(); k++)
         if (i != k) check_apart(mine[i], mine[k], "this fix", step);
     for (const Fix *fix : lsdcd::host_fixes(modify)) {
-      if (fix == &wall) continue;
+      if (fix == &of) continue;
       for (const ScriptFile &file : mine)
         for (const ScriptFile &other : files_of_fix(fix))
           check_apart(file, other, "fix " + std::string(fix->id), step);

@@ -213,7 +213,13 @@ def test_rows(folder):
              [row[2] for row in rows] == [row[2] for row in first] * len(ways), out[-500:])
     lmp.refused("a folder that is not there", begin() + forces("file there/rows.txt") + "run 1\n", folder, "there/rows.txt: cannot be written")
     lmp.refused("one file for two", begin() + forces("file r.txt") + "fix n all massflow/lsdcd mesh plate.stl file r.txt\nrun 1\n", folder,
-                "has the same file r.txt: give each its own")
+                "in 'file', 'r.txt' is the file that fix n writes: name another file")
+    for name, words in (("another way to it", "mesh plate.stl file ../" + folder.name + "/r.txt"), ("the mesh of another", "mesh r.txt")):
+        write_plate(folder / "r.txt", 2, 2)
+        mesh = (folder / "r.txt").read_bytes()
+        lmp.refused(f"a file that is {name}", begin() + forces("file r.txt") + f"fix n all massflow/lsdcd {words}\nrun 1\n", folder,
+                    "in 'file', '", "name another file")
+        fact(f"{name} stays", (folder / "r.txt").read_bytes() == mesh)
     lmp.refused("a file without a name", begin() + forces("file"), folder, "its name is missing")
 
 

@@ -113,6 +113,11 @@ def test_refused(folder):
             ("massflow", text("") + "fix m all massflow/lsdcd mesh floor.stl\n",
              "massflow/lsdcd: a rerun has no steps")):
         lmp.refused(name, script_text + RERUN.format(""), folder, told)
+    rows = folder / "rows.txt"
+    rows.write_text("of a run\n")
+    lmp.refused("massflow with a file", text("") + f"fix m all massflow/lsdcd mesh floor.stl file {rows.name}\n" + RERUN.format(""), folder,
+                "massflow/lsdcd: a rerun has no steps")
+    fact("the file of a massflow that is refused stays", rows.read_text() == "of a run\n")
 
 
 def test_no_rerun(folder):
