@@ -194,10 +194,9 @@ std::vector<LawOfTypes> read_laws(const WallMaterials &materials,
                                   std::string &report)
 {
   std::vector<LawOfTypes> laws;
-  for (const MaterialPair &pair : pairs) {
-    if (!materials.style.empty())
-      refuse_classic_of_materials(materials.style, pair, units, kScriptWords);
-    const MaterialLaw made = law_of_materials(pair, units, kScriptWords);
+  if (!materials.style.empty())
+    refuse_classic_of_materials(materials.style, pairs.front(), units, kScriptWords);
+  for (const MaterialLaw &made : laws_of_materials(pairs, units, kScriptWords)) {
     laws.emplace_back();
     laws.back().law = made.law;
     laws.back().name = made.name;

@@ -10,7 +10,9 @@
 #include "material/material_file.h"
 #include "material/material_units.h"
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <set>
 
 namespace lsdcd {
@@ -69,15 +71,21 @@ class LawFiller {
       made.sub_models.push_back(
           {&granular_row(Family::tangential, "mindlin"), {NAN, 1, of_pair("sliding_friction")}});
     for (const GivenSubModel &given : c_.beside) made.sub_models.push_back(filled(given));
-    for (const Override &o : c_.overrides)
-      if (!read_.count(&o))
-        fail(with_ + (o.of.empty() ? "" : o.of + " ") + o.key +
-             "' changes nothing, as no sub-model here takes it: leave it out, or name one that "
-             "does");
     made.law = law_of(made.sub_models);
     made.name = "granular " + text_of(made.sub_models) + (c_.limit_damping ? " limit_damping" : "");
     made.report = report_;
     return made;
+  }
+
+  bool reads(const Override &o) const
+  {
+    return read_.count(&o) > 0;
+  }    // of the pair; after make()
+
+  [[noreturn]] void refuse_unread(const Override &o) const
+  {
+    fail(with_ + (o.of.empty() ? "" : o.of + " ") + o.key +
+         "' changes nothing, as no sub-model here takes it: leave it out, or name one that does");
   }
 
   // The damping of classic styles is divided by the mass, which no material has.
@@ -302,7 +310,27 @@ class LawFiller {
 MaterialLaw law_of_materials(const MaterialPair &pair, const std::string &units,
                              const MaterialWords &words)
 {
-  return LawFiller(pair, units, words).make();
+  return laws_of_materials({pair}, units, words).front();
+}
+
+std::vector<MaterialLaw> laws_of_materials(const std::vector<MaterialPair> &pairs,
+                                           const std::string &units, const MaterialWords &words)
+{
+  std::vector<MaterialLaw> laws;
+  std::vector<const Override *> read;
+  std::deque<LawFiller> fillers;
+  for (const MaterialPair &pair : pairs) {
+    laws.push_back(fillers.emplace_back(pair, units, words).make());
+    for (const Override &o : pair.overrides)
+      if (fillers.back().reads(o)) read.push_back(&o);
+  }
+  for (std::size_t k = 0; k < pairs.size(); k++)
+    for (const Override &o : pairs[k].overrides)
+      if (std::none_of(read.begin(), read.end(), [&](const Override *other) {
+            return other->of == o.of && other->key == o.key && other->value == o.value;
+          }))
+        fillers[k].refuse_unread(o);
+  return laws;
 }
 
 void check_normal_of_materials(const std::string &normal)

@@ -55,6 +55,10 @@ struct MaterialLaw {
 // InputError.
 MaterialLaw law_of_materials(const MaterialPair &pair, const std::string &units,
                              const MaterialWords &words);
+// Returns the law of each pair, as those of a wall's meshes and atom types, which share overrides: one that changes nothing in
+// all pairs is refused.
+std::vector<MaterialLaw> laws_of_materials(const std::vector<MaterialPair> &pairs,
+                                           const std::string &units, const MaterialWords &words);
 
 // Throws InputError where a normal sub-model takes no material, or an override is none.
 void check_normal_of_materials(const std::string &normal);

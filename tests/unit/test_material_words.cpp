@@ -121,6 +121,24 @@ TEST_F(material_words, of_meshes_and_types_become_laws)
   EXPECT_EQ(by_numbers.law().mu, meshes.law().mu);
 }
 
+// What is given of a wall is given of the pairs that have it, and a mesh may have it otherwise.
+TEST_F(material_words, with_numbers_of_a_wall_hold_where_they_mean_something)
+{
+  const auto law = [&](const std::string &pair) {
+    return filled("granular material FILE " + pair + " mesh a.stl");
+  };
+  const std::string stiff = "glass on steel with steel youngs_modulus 1e9 restitution 0.5",
+                    two = "granular material FILE " + stiff + " mesh a.stl mesh b.stl material ";
+  const WallSpec some = wall(two + "glass"), other = wall(two + "steel with restitution 0.6");
+  EXPECT_EQ(some.laws.front().name, law(stiff));
+  EXPECT_EQ(some.meshes[1].laws.front().name, law("glass with restitution 0.5"));
+  EXPECT_EQ(other.laws.front().name, law(stiff));
+  EXPECT_EQ(other.meshes[1].laws.front().name,
+            law("glass on steel with steel youngs_modulus 1e9 restitution 0.6"));
+  EXPECT_TRUE(says(error_of(two + "glass with steel youngs_modulus 2e9"),
+                   {"'with steel youngs_modulus' changes nothing"}));
+}
+
 // Steel on steel is not in the file.
 TEST_F(material_words, ask_for_no_pair_that_does_not_meet)
 {
