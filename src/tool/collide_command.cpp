@@ -113,7 +113,7 @@ void print(const CollideOptions &o, const CollideTotals &t, const MeshCollision 
                         {"device", collision.device()}};
     if (!o.output.empty()) j["output"] = o.output;
     if (!o.segments.empty()) j["segments"] = o.segments;
-    std::printf("%s\n", j.dump(2).c_str());
+    print_json(stdout, j);
     return;
   }
   std::printf("%s against %s\n", o.body.c_str(), o.wall.c_str());

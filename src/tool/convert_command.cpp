@@ -62,7 +62,7 @@ void run(const ConvertOptions &o)
                                 {"left_out", read.left_out},
                                 {"lo", as_json(lo)},
                                 {"hi", as_json(hi)}};
-    std::printf("%s\n", all.dump(2).c_str());
+    print_json(stdout, all);
     return;
   }
   std::printf("%s: %s from (%g, %g, %g) to (%g, %g, %g)\n", o.output.c_str(),

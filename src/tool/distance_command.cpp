@@ -124,7 +124,7 @@ void print(const DistanceOptions &o, const DistanceTotals &t, const PointAnswers
     if (answers.sides == SideKind::exact) j["inside"] = t.inside;
     if (answers.sides == SideKind::estimated) j["estimated_inside"] = t.inside;
     if (t.found > 0) j.update({{"nearest", t.nearest}, {"farthest", t.farthest}});
-    std::fprintf(to, "%s\n", j.dump(2).c_str());
+    print_json(to, j);
     return;
   }
   std::fprintf(to, "%s: %s\n  found       %zu", o.output.c_str(),

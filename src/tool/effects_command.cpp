@@ -43,7 +43,7 @@ void add_effects_command(Command &program)
         if (acts_on_pairs(c.settings))
           all.back()["bytes_per_pair"] = bytes_per_pair(c.settings.law());
       }
-      std::printf("%s\n", all.dump(2).c_str());
+      print_json(stdout, all);
       return;
     }
     std::printf("%-25s %9s %12s %9s  %s\n", "effect", "B/atom", "B/contact", "B/pair",

@@ -55,7 +55,7 @@ void write(const Output &o, const Triangles &coarse)
                      "fewer --segments");
   write_whole_file(o.file, stl_bytes(soup));
   if (o.json)
-    std::printf("%s\n", as_json(mesh.report).dump(2).c_str());
+    print_json(stdout, as_json(mesh.report));
   else
     std::printf("%s\n%s\n", describe(mesh.report, o.file).c_str(),
                 verdict_line(mesh.report).c_str());

@@ -45,7 +45,7 @@ void inspect(const InspectOptions &o)
   WeldedMesh mesh = load_mesh(o.file, o.scale, o.weld);
   if (mesh.report.oriented) note_meetings(mesh, meets_itself(mesh));
   if (o.json)
-    std::printf("%s\n", as_json(mesh.report).dump(2).c_str());
+    print_json(stdout, as_json(mesh.report));
   else
     std::printf("%s\n%s\n", describe(mesh.report, o.file).c_str(),
                 verdict_line(mesh.report).c_str());
@@ -65,7 +65,7 @@ void grid(const InspectOptions &o)
   const StepGrid g = build_grid(mesh, settings);
   progress.clear();
   if (o.json)
-    std::printf("%s\n", as_json(g.report).dump(2).c_str());
+    print_json(stdout, as_json(g.report));
   else
     std::printf("%s\n%s\n", describe(mesh.report, o.file).c_str(), describe(g.report).c_str());
 }

@@ -59,7 +59,7 @@ void run(const MaterialOptions &o)
     if (o.json) {
       const nlohmann::json all = {{"materials", as_json(file.materials)},
                                   {"pairs", as_json(file.pairs)}};
-      std::printf("%s\n", all.dump(2).c_str());
+      print_json(stdout, all);
       return;
     }
     list(file.materials);
@@ -81,7 +81,7 @@ void run(const MaterialOptions &o)
     std::istringstream text(made.name);
     for (std::string word; text >> word;) words.push_back(word);
     const nlohmann::json all = {{"words", words}, {"report", made.report}};
-    std::printf("%s\n", all.dump(2).c_str());
+    print_json(stdout, all);
     return;
   }
   std::printf("%s\n", made.report.c_str());

@@ -7,6 +7,12 @@
 
 namespace lsdcd {
 
+void print_json(std::FILE *to, const nlohmann::json &all)
+{
+  constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+  std::fprintf(to, "%s\n", all.dump(2, ' ', false, kReplace).c_str());
+}
+
 nlohmann::json as_json(const Vec3 &v)
 {
   return {v.x, v.y, v.z};

@@ -8,10 +8,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
 namespace lsdcd {
+
+// Writes it, and the end of a line. What is no UTF-8, as a name or a text of a file may be, becomes U+FFFD.
+void print_json(std::FILE *to, const nlohmann::json &all);
 
 nlohmann::json as_json(const Vec3 &v);
 nlohmann::json as_json(const MeshReport &report);

@@ -119,7 +119,7 @@ bool run(const RepairOptions &o)
   if (o.json) {
     nlohmann::json all = as_json(report);
     all["mesh"] = as_json(repaired.mesh.report);
-    std::printf("%s\n", all.dump(2).c_str());
+    print_json(stdout, all);
   } else {
     print(o, report);
     std::printf("%s\n%s\n", describe(repaired.mesh.report, o.output).c_str(),

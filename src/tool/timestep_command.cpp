@@ -139,7 +139,7 @@ void run(const TimestepOptions &o)
                                 {"way_per_radius", way},
                                 {"hertz_kn", {{"grains", kn_own}, {"wall", kn_wall}}},
                                 {"too_soft", deepest > kDeep}};
-    std::printf("%s\n", all.dump(2).c_str());
+    print_json(stdout, all);
     return;
   }
   std::printf("smallest radius    %.6g\n", least);

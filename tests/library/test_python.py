@@ -538,14 +538,15 @@ def test_wall_specs():
                 fact("and of its work in all", abs(taken.sum() - share * lost[1]) < 1e-12 * lost[1], (taken, lost))
         refused("heat of friction without books", "give the wall energy", lambda: lsdcd.Wall(lsdcd.WallSpec(rubs, [lsdcd.WallMesh(mesh)], friction_heat=0.5)), lsdcd.Error)
         materials = os.path.join(folder, "some.lsdcd")
-        with open(materials, "w", encoding="ascii") as f:
-            f.write("units si\nmaterial glass\nyoungs_modulus 5e4 Pa\npoissons_ratio 0.23 1\npair glass glass\n"
+        with open(materials, "w", encoding="latin-1") as f:
+            f.write("units si\nmaterial glass\nyoungs_modulus 5e4 Pa # Müller\npoissons_ratio 0.23 1\npair glass glass\n"
                     "restitution 0.9 1\nsliding_friction 0.1 1\n")
         glass = lsdcd.Law.from_material(materials, "glass")
         same = lsdcd.Law.granular(sub("hertz/material", E=5e4, e=0.9, nu=0.23), sub("mindlin", xgammat=1, mu=0.1),
                                   "coeff_restitution")
         fact("a law of materials has the bits of their numbers", forces(floor_of(glass)).tobytes() == forces(floor_of(same)).tobytes())
         fact("it tells its numbers", "restitution 0.9 (some.lsdcd line 6)" in glass.report, glass.report)
+        fact("and a source that is no UTF-8, by its byte", "some.lsdcd line 3): M\\xfcller" in glass.report, glass.report)
         again = pickle.loads(pickle.dumps(glass))
         fact("it is pickled", forces(floor_of(again)).tobytes() == forces(floor_of(glass)).tobytes(), again)
         rough = lsdcd.Law.from_material(materials, "glass", tangential=sub("mindlin", xgammat=0.5), damping="tsuji",

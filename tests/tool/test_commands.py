@@ -184,6 +184,10 @@ def check_json(folder, commands):
     materials = json.loads(run(folder, "material", "glass.lsdcd", "--json").stdout)["materials"]
     fact("values of materials have units and sources", "glass" in [material["first"] for material in materials] and
          all(set(said) == {"value", "unit", "source"} for material in materials for said in material["properties"].values()))
+    (folder / "latin.lsdcd").write_bytes("units si\nmaterial clay\nyoungs_modulus 5e6 Pa # Müller\n".encode("latin-1"))
+    latin = run(folder, "material", "latin.lsdcd", "--json")
+    fact("a source that is no UTF-8 is shown without its byte", latin.returncode == 0 and json.loads(latin.stdout)["materials"][0][
+        "properties"]["youngs_modulus"]["source"] == "M\ufffdller", latin.stderr)
     both = [run(folder, *"material glass.lsdcd glass --on aluminium".split(), *more).stdout for more in ([], ["--json"])]
     fact("and the words for a script are the same", " ".join(json.loads(both[1])["words"]) in both[0], both[1])
 

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._c import (DEVICES, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _flag, _instance, _instances, _Law, _lib, _list,
                  _Materials, _Motion, _noted, _numbers, _Override, _Record, _RigidBody, _Servo, _sized, _Spec, _SubModel,
-                 _SubModelFacts, _tuple, _TypeLaw, _WallMesh, _WallSpec)
+                 _SubModelFacts, _text, _tuple, _TypeLaw, _WallMesh, _WallSpec)
 
 if TYPE_CHECKING:
     from . import Mesh
@@ -125,7 +125,7 @@ class Law(_Spec):
                        n_overrides=len(rows), units=units)
         report = ctypes.c_char_p()
         _check(_lib.lsdcd_law_from_material(ctypes.byref(given), ctypes.byref(law._struct), ctypes.byref(report)))
-        law.report = (report.value or b"").decode()
+        law.report = _text(report.value or b"")
         return law
 
 
