@@ -92,6 +92,8 @@ def test_files(folder):
     fact("mesh_fields of the run stay as they were", len(vtp) == 11 and
          all(after.get(k) == v for k, v in vtp.items()))
     fact("mesh_fields: told once", output.count("no mesh_fields are written") == 1)
+    books = lmp.run_well(text("energy impacts 0.1") + RERUN.format("first 20"), folder)
+    fact("energy and impacts: told once", books.count("loads, wear, energy and impacts add up: none of these") == 1)
     fact("mesh_stl: the mesh where it was", len(stl) == 10 and
          all(after.get(k) == v for k, v in stl.items()))
     lmp.run_well(text(words) + RERUN.format("first 20") + "run 20 pre no\n", folder)

@@ -51,10 +51,10 @@ void SnapshotCheck::check(const std::deque<MeshPart> &meshes, const Step &step)
                "s spin, because no " + host_.names().record +
                " gives that back: friction, rolling and twisting are those of the spin that they "
                "had before");
-  if (wall_.has_loads())
+  if (wall_.has_loads() || wall_.energy || wall_.impact_speed > 0)
     host_.warn(a_replay +
-               " has no steps over which loads and wear add up: no wear is counted and no "
-               "mesh_fields are written");
+               " has no steps over which loads, wear, energy and impacts add up: none of these is "
+               "counted, and no mesh_fields are written");
 }
 
 }    // namespace lsdcd
