@@ -20,7 +20,8 @@ const char *const kInsertSyntax =
     "fix ID group insert/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move x y "
     "z] [weld tol] [depth D] | region ID, with diam one D | range LO HI | poly N D1 F1 ... | mass "
     "N D1 F1 ..., dens RHO | LO HI, [massrate R | numberrate R] [mass M | number N] [type T] [vel "
-    "X Y Z | normal V] [jitter [gaussian] V | X Y Z] [wall all | none | ID] [attempts N] [every N] "
+    "X Y Z | normal V] [jitter [gaussian] V | X Y Z] [temperature T] [wall all | none | ID] "
+    "[attempts N] [every N] "
     "[seed N]";
 
 constexpr Real kMostInt = 2147483647, kMostExact = 9007199254740992;
@@ -131,6 +132,10 @@ bool read_word(const std::string &word, Tokens &w, InsertSettings &s)
     read_velocity(w, s);
   } else if (word == "jitter") {
     read_jitter(w, s.plan.grains);
+  } else if (word == "temperature") {
+    w.set_context("temperature", "temperature T");
+    s.has_temperature = true;
+    s.temperature = w.number("T");
   } else if (word == "depth") {
     w.set_context("depth", "depth D");
     s.depth = w.number("D", 0);

@@ -20,6 +20,8 @@ struct InsertSettings {
   bool along_normal = false;    // of the face, with `speed`
   Real speed = 0;
   Vec3 velocity = {0, 0, 0};
+  bool has_temperature = false;
+  Real temperature = 0;
   Real depth = 0;           // length; how far in front of the face grains are put
   bool all_walls = true;    // grains keep off these fixes, or off those named
   std::vector<std::string> walls;

@@ -31,6 +31,10 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
+
+// The first stable LAMMPS with fix heat/flow and what it integrates.
+#define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
+
 using lsdcd::Insertion;
 using lsdcd::number_text;
 using lsdcd::PackedSphere;
@@ -224,6 +228,7 @@ void FixInsertLsdcd::init()
 {
   const std::string late = late_pair_springs(*this, *modify);
   if (!late.empty()) fatal(late);
+  check_temperature();
   std::vector<FixWallLsdcd *> found;
   std::vector<std::string> missing = settings.walls;
   const std::vector<Fix *> fixes = lsdcd::host_fixes(*modify);
@@ -385,6 +390,39 @@ bool FixInsertLsdcd::owns(double *x) const
   return true;
 }
 
+void FixInsertLsdcd::check_temperature() const
+{
+#if HOST_HAS_HEAT
+  const bool wanted = atom->temperature_flag;
+#else
+  const bool wanted = false;
+#endif
+  if (wanted && !settings.has_temperature)
+    fatal("atoms have a temperature: give that of the grains by 'temperature T'");
+  if (!wanted && settings.has_temperature)
+    fatal("'temperature' is given, and atoms have none: it needs fix ID all property/atom "
+          "temperature heatflow ghost yes, of LAMMPS 2 Aug 2023 or later");
+}
+
+// What fix property/atom has of a new atom, which would be what a ghost had there: LAMMPS does not set it.
+void FixInsertLsdcd::set_properties(int m) const
+{
+  if (atom->molecule_flag) atom->molecule[m] = 0;
+  if (atom->q_flag) atom->q[m] = 0;
+  for (int k = 0; k < atom->nivector; k++)
+    if (atom->ivector[k]) atom->ivector[k][m] = 0;
+  for (int k = 0; k < atom->ndvector; k++)
+    if (atom->dvector[k]) atom->dvector[k][m] = 0;
+  for (int k = 0; k < atom->niarray; k++)
+    if (atom->iarray[k]) std::fill_n(atom->iarray[k][m], atom->icols[k], 0);
+  for (int k = 0; k < atom->ndarray; k++)
+    if (atom->darray[k]) std::fill_n(atom->darray[k][m], atom->dcols[k], 0.0);
+#if HOST_HAS_HEAT
+  if (atom->temperature_flag) atom->temperature[m] = settings.temperature;
+  if (atom->heatflow_flag) atom->heatflow[m] = 0;
+#endif
+}
+
 // IDs are given in the order in which grains are placed, so that they do not depend on the number of processes.
 void FixInsertLsdcd::create(const std::vector<Insertion::Placed> &placed)
 {
@@ -412,6 +450,7 @@ void FixInsertLsdcd::create(const std::vector<Insertion::Placed> &placed)
     atom->radius[m] = grain.radius;
     atom->rmass[m] = grain.mass();
     if (atom->tag_enable) atom->tag[m] = most + 1 + static_cast<tagint>(k);
+    set_properties(m);
     modify->create_attribute(m);
     made++;
   }

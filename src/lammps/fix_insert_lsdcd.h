@@ -67,6 +67,8 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   void create(const std::vector<lsdcd::Insertion::Placed> &);
   bool owns(double *) const;
   void follow_schedule();
+  void check_temperature() const;
+  void set_properties(int) const;
   std::string late_text(const std::string &, const lsdcd::Refused &) const;
   std::string inserted_text() const;
   std::string no_room_text(double radius, int tries) const;

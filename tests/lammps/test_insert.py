@@ -216,6 +216,50 @@ fix in all insert/lsdcd region below numberrate 100 diam one 0.1 dens 1 seed 3
          f"{len(gap)} {lowest} {min(gap)}")
 
 
+# Ghosts of atoms across the corner, where new atoms come in LAMMPS's arrays.
+MARKED = lmp.head("-3 3 -3 3 -3 3", "p p p") + END + '''\
+fix             prop all property/atom {properties} ghost yes
+create_atoms    1 single 2.9 2.9 -2.8
+create_atoms    1 single -2.9 -2.9 -2.8
+set             group all diameter 0.1 density 1
+{marks}
+comm_modify     cutoff 1
+timestep        0.001
+region          up block -2 2 -2 2 1 2
+fix             in all insert/lsdcd region up number 3 diam one 0.05 dens 1 {words}
+dump            d all custom 3 grains id {columns}
+run             3
+'''
+
+
+def test_properties(folder):
+    """Values of fix property/atom, of which LAMMPS sets none for new atoms, are those of no ghost."""
+    marks = "\n".join(f"set atom {k} mol {6 + k} charge 0.5 i_mark {4 + k} d_level 2.5" for k in (1, 2))
+    text = MARKED.format(properties="mol q i_mark d_level", marks=marks, words="", columns="mol q i_mark d_level")
+    for ranks in (1, 2):
+        lmp.run_well(text, folder, ranks)
+        grains = last(lmp.read_dump(folder / "grains"))
+        fact(f"inserted grains have none, {ranks} ranks", len(grains) == 5 and all(
+            list(grains[k]) == [0, 0, 0, 0] for k in (3, 4, 5)), str(grains))
+
+
+@lmp.of_host
+def test_temperature(folder):
+    """Grains come with the temperature that is given, and it has to be."""
+    marks = "set group all temperature 350"
+    for words, said in (("", "give that of the grains by 'temperature T'"), ("temperature 290", "")):
+        text = MARKED.format(properties="temperature heatflow", marks=marks + "\ncompute t all property/atom temperature heatflow", words=words,
+                             columns="c_t[1] c_t[2]")
+        if said:
+            lmp.refused("without it", text, folder, said)
+            continue
+        lmp.run_well(text, folder, 2)
+        grains = last(lmp.read_dump(folder / "grains"))
+        fact("inserted grains have it", [grains[k][0] for k in (1, 3, 4, 5)] == [350, 290, 290, 290] and grains[3][1] == 0, str(grains))
+    lmp.refused("of atoms that have none", MARKED.format(properties="mol", marks="", words="temperature 290", columns="mol"), folder,
+                "'temperature' is given, and atoms have none")
+
+
 @lmp.of_kokkos
 def test_kokkos(folder):
     """Beside wall/lsdcd/kk and without Kokkos in the same LAMMPS. Grains keep clear of a cube that moves, and are put
