@@ -124,6 +124,20 @@ def test_forces_set_before(folder):
             1e-9)
 
 
+def test_variables_of_atoms(folder):
+    """A floor and a gravity that follow atoms in each step. Where others change atoms on a GPU LAMMPS evaluates the variables with old ones, also for forms
+    with /kk/host, unless a fix brings them."""
+    body = scene.CREATE + "variable follows equal 0.1*vz[7]\nvariable pull equal 8+2*z[11]\n" + scene.forces(
+        HISTORY, "mesh floor.stl motion variable NULL NULL NULL NULL NULL v_follows") + scene.dump("moves", 100) + "run 600\n"
+    body = body.replace("gravity 8.0", "gravity/lsdcd v_pull")
+    plain, _ = go(folder, PLAIN, body)
+    touching = sum(row[9] > 0 for row in plain[600].values())
+    fact("spheres touch the floor", touching > 20, str(touching))
+    for style in ("kk", "kk/host"):
+        own, _ = go(folder, lmp.FLAGS, body.replace("/lsdcd", f"/lsdcd/{style}"))
+        at_most(f"{style}: as the plain fixes", lmp.largest_difference(plain, own), 1e-9)
+
+
 def test_atoms_that_come_and_go(folder):
     body = (scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 50) + "run 600\n" + TAKEN_OUT)
     for ranks in (1, 2):
