@@ -72,8 +72,11 @@ def print_table(titles, rows):
 
 @contextlib.contextmanager
 def plot(path, x, y):
-    """Axes to draw in; x and y are their titles. Written to `path` at the end."""
-    import matplotlib
+    """Axes to draw in; x and y are their titles. Written to `path` at the end. Ends the program where there is no matplotlib."""
+    try:
+        import matplotlib
+    except ImportError:
+        raise SystemExit(f"{path} is not drawn, as matplotlib is missing: install it (Debian: python3-matplotlib)") from None
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     figure, axes = plt.subplots(figsize=(5, 3.5), layout="constrained")
