@@ -64,6 +64,7 @@ std::vector<FixWallLsdcd *> ComputeEnergyLsdcd::walls() const
 // The pair style, whose init comes first, has found this compute.
 void ComputeEnergyLsdcd::init()
 {
+  watch.init(*update);
   pair();
   if (std::strncmp(update->integrate_style, "respa", 5) == 0)
     fatal("the work of a step is that of one timestep: use run_style verlet");
@@ -73,6 +74,14 @@ void ComputeEnergyLsdcd::init()
            " has no keyword energy: what its contacts do with energy is not in the balance");
       told = true;
     }
+}
+
+void ComputeEnergyLsdcd::setup()
+{
+  if (!watch.sees_snapshot(*update) || told_of_rerun) return;
+  warn("a rerun has no steps, and books nothing of contacts: only the kinetic and the potential "
+       "energy are those of its snapshots");
+  told_of_rerun = true;
 }
 
 double ComputeEnergyLsdcd::kinetic() const

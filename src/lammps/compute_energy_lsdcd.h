@@ -8,6 +8,7 @@
 #include "compute.h"
 
 #include "lammps/own_messages.h"
+#include "lammps/rerun_watch.h"
 
 #include <vector>
 
@@ -19,6 +20,7 @@ class ComputeEnergyLsdcd : public Compute, protected OwnMessages {
   ~ComputeEnergyLsdcd() override;
 
   void init() override;
+  void setup() override;
   double compute_scalar() override;
   void compute_vector() override;
 
@@ -28,7 +30,9 @@ class ComputeEnergyLsdcd : public Compute, protected OwnMessages {
   double kinetic() const;
   double potential() const;
 
-  bool told = false;    // of a wall that books nothing
+  bool told = false;             // of a wall that books nothing
+  bool told_of_rerun = false;    // in which nothing is booked
+  RerunWatch watch;
 };
 
 }    // namespace LAMMPS_NS

@@ -242,6 +242,10 @@ class GuardedCompute : public Style {
   {
     this->run_core([&] { Style::init(); });
   }
+  void setup() override
+  {
+    this->run_core([&] { Style::setup(); });
+  }
   double compute_scalar() override
   {
     return this->run_core([&] { return Style::compute_scalar(); });
