@@ -109,7 +109,7 @@ void WallFiles::write_due(std::int64_t step, double time, const std::vector<Pose
     const MeshSpec &m = settings_.meshes[k];
     if (is_due(m.fields) && loads)
       write_fields(static_cast<int>(k), step, time, meshes[k], *loads, energies);
-    if (is_due(m.spectrum)) {
+    if (is_due(m.spectrum) && loads) {
       const ImpactSpectrum spectrum = energies.spectrum(static_cast<int>(k));
       try_to_write("there is no impact_spectrum of this step",
                    [&] { write_spectrum(file_of_step(m.spectrum.name, step), spectrum); });

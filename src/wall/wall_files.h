@@ -40,8 +40,8 @@ class WallFiles {
   // later. Collective.
   void begin_run(std::int64_t step);
 
-  // Writes what is due in this step, at `time`. `loads`: null where they are not known, and there are
-  // no mesh_fields then. An average that is written begins again; one that could not be written goes on
+  // Writes what is due in this step, at `time`. `loads`: null in a snapshot, of which there are
+  // no mesh_fields and no spectrum. An average that is written begins again; one that could not be written goes on
   // to the next file. Collective.
   void write_due(std::int64_t step, double time, const std::vector<PosedMesh> &meshes,
                  LoadRecorder *loads, EnergyRecorder &energies);

@@ -100,6 +100,15 @@ def test_files(folder):
     fact("mesh_fields of a run after a rerun are written", (folder / "f_220.vtp").exists())
 
 
+def test_spectra(folder):
+    words = MOVES + " impacts 1e-3 impact_spectrum i_*.csv every 20"
+    lmp.run_well(dumped(words).replace("velocity all", "set group all z 0.52\nvelocity all"), folder)
+    before = {p.name: p.read_bytes() for p in folder.glob("i_*")}
+    lmp.run_well(text(words) + RERUN.format("first 20"), folder)
+    fact("the run has impacts", len(before) == 10 and max(map(len, before.values())) > 50)
+    fact("its spectra stay as they were", {p.name: p.read_bytes() for p in folder.glob("i_*")} == before)
+
+
 def test_refused(folder):
     lmp.run_well(dumped(""), folder)
     lines = "variable dz equal -0.01*step*dt\n"

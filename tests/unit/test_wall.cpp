@@ -500,6 +500,19 @@ TEST_F(wall, whose_mesh_recedes_has_no_snapshots)
                          [&] { scene.step(Step::snapshot, true); }));
 }
 
+// No time has passed since the step before.
+TEST_F(wall, dissipates_no_power_in_a_snapshot)
+{
+  WallScene scene(floor.wall("energy"));
+  scene.add({0.3, 0.2, 0.49});
+  scene.v[0] = {1, 0, 0};
+  scene.go(30);    // until the spring is at its limit
+  const auto sliding = [&] { return scene.wall->energy().mesh(0).power(EnergyRow::slider); };
+  ASSERT_GT(sliding(), 0);
+  scene.step(Step::snapshot, true);
+  EXPECT_EQ(sliding(), 0);
+}
+
 // A contact with an image would wear vertices that the mesh does not have, long before they are to move.
 TEST_F(wall, whose_mesh_recedes_is_refused_in_the_step_in_which_its_grid_gets_images)
 {

@@ -54,7 +54,7 @@ void SnapshotCheck::check(const std::deque<MeshPart> &meshes, const Step &step)
   if (wall_.has_loads() || wall_.energy || wall_.impact_speed > 0)
     host_.warn(a_replay +
                " has no steps over which loads, wear, energy and impacts add up: none of these is "
-               "counted, and no mesh_fields are written");
+               "counted, and no impact_spectrum and no mesh_fields are written");
 }
 
 }    // namespace lsdcd

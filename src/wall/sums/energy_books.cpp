@@ -14,8 +14,12 @@ EnergyBooks::EnergyBooks(Host &host, const WallSpec &settings) :
 
 void EnergyBooks::add(StepResults *left, const CoatEnergy &coats, const Step &step)
 {
-  if (here_.empty() || step.kind == Step::snapshot) return;
+  if (here_.empty()) return;
   is_summed_ = false;
+  if (step.kind == Step::snapshot) {
+    for (BookedEnergy &m : here_) m.dt = 0;
+    return;
+  }
   for (std::size_t k = 0; k < here_.size(); k++) {
     EnergyRows rows = left ? left->energy(static_cast<int>(k)) : EnergyRows();
     if (!coats.rows.empty() && host_.is_first()) rows.add(coats.rows[k]);
