@@ -115,6 +115,7 @@ std::vector<double> FixSpringsLsdcdKokkos<DeviceType>::numbers_of(int i, int j)
 template <class DeviceType>
 void FixSpringsLsdcdKokkos<DeviceType>::set_arrays(int i)
 {
+  moved = true;
   if (!on_device || between_runs) of_atoms().clear(i);
   known_as[i] = 0;
 }

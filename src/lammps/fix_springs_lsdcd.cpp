@@ -177,6 +177,10 @@ void FixSpringsLsdcd::tell_owners()
 void FixSpringsLsdcd::bring_to_atoms()
 {
   if (!keeps()) return;
+  if (in_pairs && (moved || atom->nlocal != own))
+    fatal_here("a fix before pair_style granular/lsdcd in the script has created or deleted atoms, "
+               "or given them to other processes, as insert/lsdcd, balance and deform do, and "
+               "springs would go to others: write pair_style before such fixes");
   if (in_pairs) collect();
   in_pairs = false;
   int largest = largest_packed_size();
@@ -186,9 +190,6 @@ void FixSpringsLsdcd::bring_to_atoms()
 
 void FixSpringsLsdcd::pre_exchange()
 {
-  if (in_pairs && atom->nlocal != own)
-    fatal_here("a fix before pair_style granular/lsdcd in the script has created or deleted atoms, "
-               "and springs would go to others: write pair_style before such fixes");
   between_runs = false;
   bring_to_atoms();
 }
@@ -196,6 +197,7 @@ void FixSpringsLsdcd::pre_exchange()
 void FixSpringsLsdcd::post_neighbor()
 {
   new_list = true;
+  moved = false;
   if (!watches_radii) return;
   const double *const radius = radii();
   listed_radius.assign(radius, radius + atom->nlocal);
@@ -303,18 +305,21 @@ void FixSpringsLsdcd::grow_arrays(int nmax)
 
 void FixSpringsLsdcd::copy_arrays(int i, int j, int /*delflag*/)
 {
+  moved = true;
   of_atoms().copy(i, j);
   known_as[j] = known_as[i];
 }
 
 void FixSpringsLsdcd::set_arrays(int i)
 {
+  moved = true;
   partners.clear(i);
   known_as[i] = 0;
 }
 
 int FixSpringsLsdcd::pack_exchange(int i, double *buf)
 {
+  moved = true;
   int n = 0;
   if (between_runs) buf[n++] = static_cast<double>(known_as[i]);
   return n + (keeps() ? of_atoms().pack(i, buf + n) : 0);

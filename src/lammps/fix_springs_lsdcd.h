@@ -92,6 +92,7 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   lsdcd::PairList list;     // of the last step
   int own = 0;              // atoms of this process then
   bool in_pairs = false;    // history[now] is newer than partners
+  bool moved = false;       // atoms have other places than in the last list
   bool new_list = true;     // since the last step
   std::vector<std::size_t>
       row_start;    // the number of a row's first pair in the list, of as many rows as were asked for

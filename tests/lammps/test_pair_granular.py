@@ -238,6 +238,51 @@ def test_order_of_fixes(folder):
         lmp.refused(fix, text, folder, "fix early", "write pair_style before")
 
 
+# Two pairs whose grains slide past each other, in the halves of two processes, which change places when the box flips.
+FLIPPED = """units lj
+atom_style sphere
+comm_modify vel yes
+newton off
+processors 2 1 1
+region box prism -5 5 -5 5 -5 5 4.98 0 0
+box tilt large
+create_box 1 box
+neigh_modify every 50 delay 0 check no
+timestep 1e-3
+{before}
+pair_style granular/lsdcd
+pair_coeff * * hooke 1000 0 tangential linear_history 500 0 100 damping mass_velocity
+{behind}
+create_atoms 1 single 0 0.1 0
+create_atoms 1 single 0 0.1 0.95
+create_atoms 1 single 5 0.1 0
+create_atoms 1 single 5 0.1 0.95
+set group all diameter 1 density 1
+group one id 2
+group two id 4
+group rest subtract all one two
+fix one one move linear 0 0.1 0
+fix two two move linear 0 -0.2 0
+fix rest rest move linear 0 0 0
+dump d all custom 1000 forces id fy
+dump_modify d format float %.17g
+run 1000
+"""
+
+
+def test_flip(folder):
+    """Atoms that fix deform gives to another process take their springs along, or an error says where pair_style has to stand."""
+    flip = "fix flip all deform 10 xy delta 0.04 remap none"
+    lmp.run_well(FLIPPED.format(before="", behind=flip), folder, 2)
+    forces = lmp.read_dump(folder / "forces")[1000]
+    # The normal leans by 0.1 / 0.95 and 0.2 / 0.95 at the end: it turns the shear displacement by 2 %, and a normal force of at most
+    # 1000 * 0.05 takes up to 11 % of 50, the lesser friction.
+    for k, slid in ((1, 0.1), (3, -0.2)):
+        at_most(f"force of atom {k}, of a stiffness of 500", abs(forces[k][0] / (500 * slid) - 1), 0.15)
+    lmp.refused("fix deform before it", FLIPPED.format(before=flip, behind=""), folder, "given them to other processes", "write pair_style before",
+                ranks=2)
+
+
 def test_damaged_restart(folder):
     """The count of an atom's partners in a restart file is not that of its numbers: the atom is named."""
     lmp.run_well(script(ours("* * " + GRANULAR), steps=100) + "write_restart r\n", folder)
