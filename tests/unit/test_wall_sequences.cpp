@@ -4,7 +4,7 @@
 // Random sequences of running, changing, saving and restoring a wall, over all that a mesh can be: a wall that goes on from a saved
 // state is the one that was never saved, to the bit, or says why not. LSDCD_SEQUENCES sets how many.
 #include "base/input_error.h"
-#include "support/laws.h"
+#include "input/wall_command.h"
 #include "support/meshes.h"
 #include "support/random.h"
 #include "support/says.h"
@@ -84,11 +84,29 @@ MeshSpec mesh_of(Kind kind, Real x, Random &random)
   return mesh;
 }
 
+std::vector<LawOfTypes> some_laws(Random &random)
+{
+  const char *const laws[] = {
+      "hooke/history 1000 300 20 5 0.5 0",
+      "hooke 1000 300 20 5 0.5 0",
+      "granular hertz 1000 20 damping viscoelastic tangential mindlin 300 1 0.5 rolling sds 200 5 "
+      "0.1 twisting marshall",
+      "granular jkr 2000 0.5 0.3 5 damping viscoelastic tangential mindlin_rescale 300 1 0.5 "
+      "rolling sds 200 5 0.1 twisting sds 20 1 0.1",
+      "granular dmt 2000 0.5 0.3 5 damping mass_velocity tangential mindlin_rescale/force 300 1 "
+      "0.5",
+      "hertz/history 1000 300 20 5 0.5 0 rolling epsd2 0.1 cohesion sjkr 50"};
+  const auto which = static_cast<std::size_t>(uniform(random, 0, std::size(laws) - 0.01));
+  return parse_wall(words(std::string(laws[which]) + " mesh x.stl")).wall.laws;
+}
+
 // Meshes side by side. A coated body stands on a floor of its own, which is the next mesh.
 WallSpec wall_of(const std::vector<Kind> &kinds, Random &random)
 {
   WallSpec wall;
-  wall.laws.front().law = hooke_history(1000, 300, 20, 5, 0.5).law();
+  wall.laws = some_laws(random);
+  wall.energy = true;
+  wall.impact_speed = 0.02;
   wall.device = Device::cpu;
   wall.average_every = 7;
   const bool wears = std::count(kinds.begin(), kinds.end(), Kind::wears) > 0;
@@ -104,8 +122,10 @@ WallSpec wall_of(const std::vector<Kind> &kinds, Random &random)
     }
     x += 6;
   }
-  for (MeshSpec &mesh : wall.meshes)
+  for (MeshSpec &mesh : wall.meshes) {
+    mesh.fields = {mesh.name + std::to_string(&mesh - wall.meshes.data()) + "_*.vtp", 1000};
     if (wears) mesh.wear_factor = mesh.name == kNames[static_cast<int>(Kind::wears)] ? 1 : 0;
+  }
   return wall;
 }
 
@@ -160,6 +180,15 @@ struct World : WallScene {
     }
   }
 
+  // What became of energy at a mesh, and its impacts.
+  std::vector<Real> books(int mesh)
+  {
+    const BookedEnergy e = wall->energy().mesh(mesh);
+    std::vector<Real> all = {e.dt, wall->impacts(mesh).impacts(), wall->impacts(mesh).energy()};
+    for (int k = 0; k < kEnergyRows; k++) all.insert(all.end(), {e.rows.of[k], e.step.of[k]});
+    return all;
+  }
+
   // All that the two must have the same.
   std::vector<Real> numbers()
   {
@@ -173,6 +202,7 @@ struct World : WallScene {
       for (const Vec3 &a : {t.force, t.torque, mean.force, mean.torque, m.pose().shift}) put(a);
       all.insert(all.end(),
                  {t.contacts, t.power, t.energy, wall->worn(m.index), wall->removed(m.index)});
+      for (const Real number : books(m.index)) all.push_back(number);
       for (const Vec3 &row : m.pose().row) put(row);
       for (const Vec3 &vertex : m.mesh()->vertices) put(vertex);
       if (!wall->body(m.index)) continue;
@@ -202,12 +232,14 @@ Saved saved(World &from)
   return all;
 }
 
-// Returns what meshes keep beside what shows: springs of coats, and wear that moves no vertex yet.
+// Returns what meshes keep beside what shows: springs of coats, wear that moves no vertex yet, and what became of energy at each
+// triangle.
 std::vector<Real> kept(Wall &wall)
 {
   std::vector<Real> all;
   for (const MeshState &mesh : wall.save().meshes)
-    for (const std::vector<Real> *of : {&mesh.coat, &mesh.surface.pending, &mesh.surface.held})
+    for (const std::vector<Real> *of : {&mesh.coat, &mesh.surface.pending, &mesh.surface.held,
+                                        &mesh.loads.rows, &mesh.energy_places, &mesh.impacts})
       all.insert(all.end(), of->begin(), of->end());
   return all;
 }
@@ -243,9 +275,32 @@ std::unique_ptr<World> restored(const Saved &from, FakeHost &host, const WallSpe
   return to;
 }
 
-// Goes on with two processes, and with one again. Returns the places of spheres by their tags.
-std::vector<Vec3> on_others(const Saved &from, const WallSpec &words, const Saved *before,
-                            int steps)
+struct Went {
+  std::vector<Vec3> x;    // of spheres by their tags
+  std::vector<std::vector<Real>> books;
+};
+
+Went where(World &world)
+{
+  Went went;
+  went.x.resize(world.x.size());
+  for (std::size_t i = 0; i < went.x.size(); i++)
+    went.x[static_cast<std::size_t>(world.tags[i] - 1)] = world.x[i];
+  for (const MeshPart &m : world.wall->meshes()) went.books.push_back(world.books(m.index));
+  return went;
+}
+
+// But for sums, which processes round otherwise.
+void expect_same(const Went &a, const Went &b, const std::string &text)
+{
+  for (std::size_t i = 0; i < a.x.size(); i++) EXPECT_NEAR(norm(a.x[i] - b.x[i]), 0, 1e-10) << text;
+  for (std::size_t k = 0; k < a.books.size(); k++)
+    for (std::size_t i = 0; i < a.books[k].size(); i++)
+      EXPECT_NEAR(a.books[k][i], b.books[k][i], 1e-8) << text << ", book " << i << " of mesh " << k;
+}
+
+// Goes on with two processes, and with one again.
+Went on_others(const Saved &from, const WallSpec &words, const Saved *before, int steps)
 {
   std::vector<Saved> parts(2);
   on_processes(2, [&](FakeHost &host) {
@@ -267,10 +322,7 @@ std::vector<Vec3> on_others(const Saved &from, const WallSpec &words, const Save
   FakeHost host;
   const std::unique_ptr<World> world = restored(all, host, words);
   world->go(steps);
-  std::vector<Vec3> x(world->x.size());
-  for (std::size_t i = 0; i < x.size(); i++)
-    x[static_cast<std::size_t>(world->tags[i] - 1)] = world->x[i];
-  return x;
+  return where(*world);
 }
 
 void add_spheres(World &world, std::size_t kinds, Random &random)
@@ -369,11 +421,9 @@ void try_sequence(unsigned seed, std::string &text)
   other->go(10);
   ASSERT_EQ(whole.numbers(), other->numbers()) << text;
   ASSERT_EQ(kept(*whole.wall), kept(*other->wall)) << text;
-  const std::vector<Vec3> there = on_others(saved(whole), whole.words, &states.front(), 5);
+  const Went there = on_others(saved(whole), whole.words, &states.front(), 5);
   whole.go(10);
-  // Sums of processes round otherwise.
-  for (std::size_t i = 0; i < there.size(); i++)
-    ASSERT_NEAR(norm(there[i] - whole.x[i]), 0, 1e-10) << text;
+  expect_same(there, where(whole), text);
 }
 
 TEST(wall_sequences, go_on_from_saved_states_to_the_bit_or_say_why_not)
@@ -418,9 +468,7 @@ TEST(wall_sequences, coats_go_on_beside_all_other_meshes_and_by_all_joints)
       EXPECT_EQ(whole.numbers(), other->numbers()) << text;
       EXPECT_EQ(kept(*whole.wall), kept(*other->wall)) << text;
       if (joint != static_cast<int>(kind) % 5) continue;    // enough of them
-      const std::vector<Vec3> there = on_others(state, words, nullptr, 5);
-      for (std::size_t i = 0; i < there.size(); i++)
-        EXPECT_NEAR(norm(there[i] - whole.x[i]), 0, 1e-10) << text;
+      expect_same(on_others(state, words, nullptr, 5), where(whole), text);
     }
 }
 
