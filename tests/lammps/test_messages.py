@@ -126,6 +126,10 @@ SAID = {
     "and nothing where that agrees": (BOX + fix(law="granular hertz 1e6 0.5 tangential mindlin 1e6 1 0.3") + "run 0\n", [OTHER], 0),
     "a law that some versions compute otherwise": (
         BOX + fix(law="hertz/history 1e6 NULL 5 NULL 0.5 1") + "run 0\n", [OTHER], int(lmp.has_wrong_walls())),
+    "the log says which damping acts where none is named": (
+        BOX + fix(law="granular hertz 1e6 0.5 tangential mindlin 1e6 1 0.3 limit_damping") + "run 0\n",
+        ["  contact ", "no damping is named: viscoelastic, with the coefficient 0.5"], 1),
+    "and nothing where one is": (BOX + fix(law="granular hertz 1e6 0.5 tangential mindlin 1e6 1 0.3 damping velocity") + "run 0\n", ["is named"], 0),
     "words that say the default are taken without a word": (BOX + fix(DEFAULTS) + "run 0\n", ["WARNING"], 0),
     "a run has as many steps as were asked for": (
         BOX + fix() + "run 1\nrun 4 pre no\n", ["Fix w wall/lsdcd: 1 step and the setup: atoms near the wall chosen 1 time, "

@@ -54,6 +54,8 @@ std::string law_text(const LawOfTypes &row)
     t += ", kn " + number_text(l.k_normal) + ", kt " + number_text(l.k_tangent) + ", gamman " +
          number_text(l.eta) + ", gammat " + number_text(l.gamma_tangent) + ", xmu " +
          number_text(l.mu) + (l.limit_damping ? ", limit_damping" : "");
+  else if (l.damping == DampingModel::viscoelastic && t.find(" damping ") == std::string::npos)
+    t += " (no damping is named: viscoelastic, with the coefficient " + number_text(l.eta) + ")";
   if (l.is_classic())
     for (const SubModel *row : rows_of(l)) {
       if (!is_beside_style(row->family)) continue;
