@@ -5,6 +5,7 @@
 
 #include "lammps/compute_collide_lsdcd.h"
 
+#include "base/byte_order_mark.h"
 #include "base/input_error.h"
 #include "base/input_words.h"
 
@@ -82,6 +83,7 @@ std::vector<Vec3> ComputeCollideLsdcd::read_points() const
     if (!file) throw InputError("cannot read file " + name + ": give x y z of an atom a line");
     std::string line;
     for (int number = 1; std::getline(file, line); number++) {
+      if (number == 1) lsdcd::drop_byte_order_mark(line);
       std::istringstream words(line);
       std::string word;
       Vec3 x = {0, 0, 0};

@@ -3,6 +3,7 @@
 
 #include "material/material_file.h"
 
+#include "base/byte_order_mark.h"
 #include "base/input_error.h"
 #include "base/input_words.h"
 
@@ -53,6 +54,7 @@ class Reader {
     bool units = false;
     std::string text;
     for (int line = 1; std::getline(file, text); line++) {
+      if (line == 1) drop_byte_order_mark(text);
       location_ = path + " line " + std::to_string(line);
       const std::size_t hash = text.find('#');
       const std::string source = hash == std::string::npos ? "" : trim(text.substr(hash + 1));

@@ -3,6 +3,7 @@
 
 #include "motion/motion_table.h"
 
+#include "base/byte_order_mark.h"
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "motion/cubic_spline.h"
@@ -16,6 +17,8 @@
 namespace lsdcd {
 
 namespace {
+
+const char *const kBlanks = " \t\r";
 
 // A turn by the angle |a| about a.
 Quaternion turn_by(const Vec3 &a)
@@ -53,6 +56,19 @@ std::string shown(std::string word)
   for (char &c : word)
     if (c < ' ' || c > '~') c = '?';
   return word;
+}
+
+// A line whose fields, between commas, are not all there would be taken for a row of fewer numbers.
+bool has_empty_field(const std::string &line)
+{
+  if (line.find(',') == std::string::npos) return false;
+  std::size_t begin = 0;
+  while (begin <= line.size()) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    if (line.find_first_not_of(kBlanks, begin) >= end) return true;
+    begin = end + 1;
+  }
+  return false;
 }
 
 const char *const kColumns =
@@ -326,9 +342,13 @@ MotionTable read_motion_table(const std::string &file, const TableOptions &optio
   const auto place = [&](int line) { return "table '" + file + "' line " + std::to_string(line); };
   std::string text;
   for (int line = 1; std::getline(in, text); line++) {
+    if (line == 1) drop_byte_order_mark(text);
     text = text.substr(0, text.find('#'));
+    if (has_empty_field(text))
+      throw InputError(place(line) +
+                       ": there is nothing before or behind one of the commas: give " +
+                       "a number for each, with a point in decimals");
     std::replace(text.begin(), text.end(), ',', ' ');
-    const char *const kBlanks = " \t\r";
     int columns = 0;
     for (std::size_t at = text.find_first_not_of(kBlanks); at != std::string::npos; columns++) {
       const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());

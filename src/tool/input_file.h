@@ -4,6 +4,7 @@
 // A file read from its beginning to its end, in bytes or in lines; named -, the standard input.
 #pragma once
 
+#include "base/byte_order_mark.h"
 #include "base/input_error.h"
 
 #include <cerrno>
@@ -29,7 +30,7 @@ class InputFile {
     }
     buffer_.resize(std::size_t(1) << 20);
     fill();
-    if (ahead(3) == "\xEF\xBB\xBF") at_ = 3;    // a byte order mark is no text
+    if (ahead(kByteOrderMark.size()) == kByteOrderMark) at_ = kByteOrderMark.size();
   }
 
   const std::string &path() const { return path_; }

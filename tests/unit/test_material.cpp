@@ -60,6 +60,11 @@ TEST_F(material_file, values_keep_their_source_and_line)
   EXPECT_EQ(file.material("glass").find("density"), nullptr);
 }
 
+TEST_F(material_file, may_begin_with_a_byte_order_mark)
+{
+  EXPECT_EQ(read("\xEF\xBB\xBFunits si\nmaterial glass\n").materials.size(), 1u);
+}
+
 TEST_F(material_file, a_pair_is_found_in_either_order)
 {
   const MaterialFile file = read(kGood);

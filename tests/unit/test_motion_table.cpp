@@ -429,6 +429,25 @@ TEST(motion_table, reads_a_file_with_comments_and_commas)
   EXPECT_TRUE(read.rows() == rows_of({{0, 0, 0, 0}, {0.5, 1, 2, 3}, {2, 1, -2, 3}}));
 }
 
+TEST(motion_table, of_a_spreadsheet_may_begin_with_a_byte_order_mark)
+{
+  const TempDir folder;
+  std::ofstream(folder.path("arm.csv")) << "\xEF\xBB\xBF"
+                                        << "0,0,0,0\r\n1,2,3,4\r\n";
+  EXPECT_TRUE(read_motion_table(folder.path("arm.csv"), {}).rows() ==
+              rows_of({{0, 0, 0, 0}, {1, 2, 3, 4}}));
+}
+
+// Without y a displacement and a quaternion would be a displacement and a rotation vector.
+TEST(motion_table, has_no_field_without_a_number)
+{
+  for (const char *const text :
+       {"0,0,,0,1,0,0,0\n1,1,,0,1,0,0,0\n", "# t,x,y,z\n0,1,2,3,\n1,1,2,3,\n",
+        "0,1,2,3\n ,1,2,3,4\n", "0,1,2,3\n1,2,3,4\n,\n"})
+    EXPECT_TRUE(says(error_of_file(text), {"there is nothing before or behind one of the commas"}))
+        << text;
+}
+
 TEST(motion_table, names_the_line_of_a_file_that_is_wrong)
 {
   EXPECT_TRUE(says(error_of_file("t x y z\n0 0 0 0\n"),

@@ -3,6 +3,7 @@
 
 #include "mesh/io/text_words.h"
 
+#include "base/byte_order_mark.h"
 #include "base/input_error.h"
 #include "base/number_words.h"
 
@@ -12,8 +13,6 @@
 
 namespace lsdcd {
 namespace {
-
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool is_line_end(char c)
 {
