@@ -6,6 +6,7 @@
 #include "base/input_words.h"
 #include "input/pair_words.h"
 #include "lammps/fix_springs_lsdcd.h"
+#include "lammps/host_box.h"
 #include "lammps/host_fixes.h"
 #include "lammps/host_pairs.h"
 #include "lammps/mpi_host.h"
@@ -15,6 +16,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "memory.h"
@@ -222,6 +224,7 @@ void PairGranularLsdcd::init_style()
   if (!told) tell_laws();
   told = true;
   check_step();
+  warn_of_narrow_box();
 }
 
 const lsdcd::BookedEnergy &PairGranularLsdcd::booked() const
@@ -454,6 +457,25 @@ void PairGranularLsdcd::check_step()
          " is more than a tenth of the shortest contact time " + lsdcd::number_text(shortest) +
          how + ": contacts will not be resolved");
   warned_of = std::max(warned_of, update->dt);
+}
+
+// Springs are found again by the ID of the other grain.
+void PairGranularLsdcd::warn_of_narrow_box()
+{
+  if (kept_width() == 0 || told_narrow) return;
+  double largest = 0;
+  for (const Radii &r : radii) largest = std::max({largest, r.moving, r.frozen});
+  const double reach = 2 * radii2cut(largest, largest);
+  const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
+  for (int k = 0; k < 3; k++) {
+    if (told_narrow || !box.periodic[k] || box.width(k) >= reach) continue;
+    told_narrow = true;
+    warn(std::string("the box is periodic along ") + "xyz"[k] + " and " +
+         lsdcd::number_text(box.width(k)) +
+         " wide: where a grain touches two images of another, one contact takes the spring of the "
+         "other, and tangential forces are wrong. Up to the reach of the largest grains, " +
+         lsdcd::number_text(reach) + ", make sure that none does, or make the box wider");
+  }
 }
 
 // ---- a step ------------------------------------------------------------------------------

@@ -70,6 +70,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   lsdcd::PairJob job();
   void tell_laws();
   void check_step();
+  void warn_of_narrow_box();
 
   double cutoff = -1;
   std::map<std::pair<int, int>, lsdcd::PairCoeff> given;    // i <= j
@@ -79,7 +80,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::map<std::pair<int, int>, std::string>
       without_law;    // types that cannot be mixed, and why; within a hybrid style they may have another style
   std::vector<Radii> radii;
-  bool told = false;
+  bool told = false, told_narrow = false;
   double warned_of = 0;    // the timestep that the last warning was about
   std::string springs_id, dummy_id;
   std::vector<lsdcd::RecordedPair> record;

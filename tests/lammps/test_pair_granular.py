@@ -533,6 +533,15 @@ def test_timestep(folder):
         fact(f"timestep {dt}: warned" if warns else f"timestep {dt}: not warned", ("contacts will not be resolved" in text) == warns)
 
 
+def test_narrow_box(folder):
+    """A grain that touches two images of another cannot tell their springs apart: a warning where a box is narrower than two grains."""
+    law = ours("* * hooke 1e3 0 tangential linear_history 500 0 100 damping mass_velocity")
+    for width, boundary, warns in ((1.99, "f p f", True), (2, "f p f", False), (1.99, "f f f", False)):
+        text = lmp.run_well(lmp.head(f"-5 5 0 {width} -5 5", boundary) + "create_atoms 1 single 0 1 0\nset group all diameter 1 density 1\n" + law +
+                            "\nfix i all nve/sphere\nrun 0\n", folder)
+        fact(f"a box {width} wide, {boundary}: {'warned' if warns else 'not warned'}", ("the box is periodic along y and 1.99 wide" in text) == warns)
+
+
 # ---- LAMMPS 4Jul2026 ------------------------------------------------------------------------
 
 NORMAL = ["hooke 1e4 5", "hertz 1e4 5", "hertz/material 1e4 5 0.3", "dmt 1e4 5 0.3 3", "jkr 1e4 5 0.3 3"]
