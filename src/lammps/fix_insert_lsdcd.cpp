@@ -232,6 +232,7 @@ void FixInsertLsdcd::init()
   std::vector<FixWallLsdcd *> found;
   std::vector<std::string> missing = settings.walls;
   const std::vector<Fix *> fixes = lsdcd::host_fixes(*modify);
+  warn_of_seed(fixes);
   for (Fix *fix : fixes) {
     auto *wall = dynamic_cast<FixWallLsdcd *>(fix);
     const auto named = std::find(missing.begin(), missing.end(), fix->id);
@@ -402,6 +403,20 @@ void FixInsertLsdcd::check_temperature() const
   if (!wanted && settings.has_temperature)
     fatal("'temperature' is given, and atoms have none: it needs fix ID all property/atom "
           "temperature heatflow ghost yes, of LAMMPS 2 Aug 2023 or later");
+}
+
+void FixInsertLsdcd::warn_of_seed(const std::vector<Fix *> &fixes)
+{
+  for (const Fix *fix : fixes) {
+    if (fix == this || seed_warned) return;
+    const auto *other = dynamic_cast<const FixInsertLsdcd *>(fix);
+    if (!other || other->settings.plan.seed != settings.plan.seed) continue;
+    seed_warned = true;
+    warn("fix " + std::string(other->id) + " has the same seed, " +
+         std::to_string(settings.plan.seed) +
+         ": grain by grain both draw the same random numbers for sizes, places and velocities; "
+         "give each a seed of its own");
+  }
 }
 
 // What fix property/atom has of a new atom, which would be what a ghost had there: LAMMPS does not set it.

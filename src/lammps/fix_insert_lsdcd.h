@@ -58,6 +58,7 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   double radius_with_room =
       0;                // of grains that have places beside the walls; on the first process
   bool told = false;    // in this run, that grains have no place
+  bool seed_warned = false;
 
   void read_face();
   void find_region();
@@ -68,6 +69,7 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   bool owns(double *) const;
   void follow_schedule();
   void check_temperature() const;
+  void warn_of_seed(const std::vector<Fix *> &fixes);
   void set_properties(int) const;
   std::string late_text(const std::string &, const lsdcd::Refused &) const;
   std::string inserted_text() const;

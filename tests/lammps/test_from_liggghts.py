@@ -317,13 +317,13 @@ WRITTEN.update({
         "insert/rate/region seed 7 distributiontemplate d nparticles 190 massrate 0.1 insert_every 1000 region r\n"
         "variable n equal f_i[1]\nunfix i\n",
         "fix             i all insert/lsdcd region r type 1 diam one 0.004 dens 2500 massrate 0.04 number 160 seed 7\n"
-        "fix             i_2 all insert/lsdcd region r type 2 diam one 0.008 dens 2500 massrate 0.06 number 30 seed 7\n"
+        "fix             i_2 all insert/lsdcd region r type 2 diam one 0.008 dens 2500 massrate 0.06 number 30 seed 8\n"
         "variable n equal (f_i[1]+f_i_2[1])\nunfix i\nunfix i_2\n"),
     "two densities by number fill a part of the volume": (
         # 2500 and 5000 kg/m3 in equal numbers of equal spheres: 3750.
         GRAINS.replace("2500 radius constant 0.004", "5000 radius constant 0.002") + "fix d all particledistribution/discrete/numberbased 3 "
         "2 p1 0.5 p2 0.5\nregion r block 0 1 0 1 0 1\nfix i all insert/pack seed 7 distributiontemplate d volumefraction_region 0.3 region r\n",
-        "diam one 0.004 dens 2500 mass 375 seed 7\nfix             i_2 all insert/lsdcd region r type 1 diam one 0.004 dens 5000 mass 750 seed"),
+        "diam one 0.004 dens 2500 mass 375 seed 7\nfix             i_2 all insert/lsdcd region r type 1 diam one 0.004 dens 5000 mass 750 seed 8\n"),
     "a rate of two sizes by mass": (
         GRAINS + "fix d all particledistribution/discrete/massbased 3 2 p1 0.5 p2 0.5\n"
         "fix i all insert/rate/region seed 7 distributiontemplate d nparticles 90 massrate 0.1 insert_every 1000 region r\n",

@@ -260,6 +260,22 @@ def test_temperature(folder):
                 "'temperature' is given, and atoms have none")
 
 
+def test_seeds(folder):
+    """Two fixes draw the same numbers where they have one seed, and then the later one warns."""
+    text = lmp.head("0 4 0 4 0 4", "f f f") + END + """timestep 0.001
+region          a block 0 4 0 4 0 4
+fix             one all insert/lsdcd region a number 50 diam one 0.1 dens 1 jitter 1 {}
+fix             two all insert/lsdcd region a number 50 diam one 0.1 dens 1 jitter 1 {}
+dump            d all custom 1 grains id vx vy vz
+run             1
+"""
+    for seeds, same in ((("", ""), True), (("seed 5", "seed 5"), True), (("", "seed 5"), False)):
+        said = lmp.run_well(text.format(*seeds), folder)
+        v = last(lmp.read_dump(folder / "grains"))
+        fact(f"{seeds}: velocities are {'those' if same else 'others'}", len(v) == 100 and same == all(v[k] == v[50 + k] for k in range(1, 51)))
+        fact(f"{seeds}: {'warned' if same else 'not warned'}", same == ("Fix two insert/lsdcd: fix one has the same seed" in " ".join(said.split())))
+
+
 @lmp.of_kokkos
 def test_kokkos(folder):
     """Beside wall/lsdcd/kk and without Kokkos in the same LAMMPS. Grains keep clear of a cube that moves, and are put

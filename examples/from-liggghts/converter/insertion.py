@@ -184,9 +184,11 @@ class Insertion:
             bounds = (self.region(v["region"]) or [None])[-1]
             place = f"region {self.whole_region(line, v['region'], max(radii), whole, in_box)}"
             there = form == "pack" and self.may_have_grains(bounds)
-        text = "\n".join(f"fix             {name} {w[2]} insert/lsdcd {place} {grains} {' '.join(parts)}{velocity}" +
-                         (f" seed {v['seed']}" if "seed" in v else "")
-                         for name, grains, parts in self.one_fix_each(line, w[1], kinds, amounts))
+        # Fixes with one seed would draw the same numbers.
+        first = v.get("seed", "1")
+        seeds = [f" seed {first}" if "seed" in v else ""] + [f" seed {self.number(first, line) + k:.0f}" for k in range(1, len(kinds))]
+        text = "\n".join(f"fix             {name} {w[2]} insert/lsdcd {place} {grains} {' '.join(parts)}{velocity}{seed}"
+                         for (name, grains, parts), seed in zip(self.one_fix_each(line, w[1], kinds, amounts), seeds))
         if "start" in v and (self.step is None or self.known(v["start"], line) != self.step + 1):
             raise Left(f"start {v['start']}", f"end a run one step before that, and put after it: {text}")
         if there:
