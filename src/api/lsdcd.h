@@ -875,7 +875,8 @@ LSDCD_API int lsdcd_wall_get_nodes(lsdcd_wall *wall, int mesh, double *positions
  * a sphere is told by the next call. Own. */
 LSDCD_API int lsdcd_wall_get_node_forces(lsdcd_wall *wall, int mesh, double *forces);
 
-/* Contacts of this process in the last step. Arrays hold `room` of them, packed; those that are null are not asked for. */
+/* Contacts of this process in the last step. Arrays hold `room` of them, packed; those that are null are not asked for. With `energy`
+ * those that the step has ended are behind the others, without force and overlap. */
 typedef struct lsdcd_wall_contacts {
   size_t size;       /* of this struct */
   size_t room;       /* 0: only `contacts` is asked for */
@@ -886,6 +887,11 @@ typedef struct lsdcd_wall_contacts {
   double *overlap;   /* length, at the begin of the step, as is the point */
   size_t
       contacts; /* answer: all there are, so the room that all take; with less room no array is written */
+  /* With `energy`; else 0. 5 numbers each, by cause as in lsdcd_wall_totals: power in the last step, and energy since the contact
+   * began. Summed over the contacts of a step the power is that of the totals, less that of coats. */
+  double *dissipated_power, *dissipated;
+  int *
+      has_ended; /* 1: the sphere touched there in the step before, and no more; `point` is where it was */
 } lsdcd_wall_contacts;
 /* Of a wall with each_contact. Of a sphere in several they come one after the other. LSDCD_ERROR_ARGUMENT also before the
  * first step after lsdcd_wall_restore(), as saved numbers have none. Own. */

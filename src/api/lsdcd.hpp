@@ -1095,6 +1095,8 @@ struct WallContact {
   int mesh = 0;
   std::array<double, 3> force = {}, point = {};
   double overlap = 0;
+  std::array<double, 5> dissipated_power = {}, dissipated = {};
+  bool has_ended = false;
 };
 
 // A bin of the impacts on a mesh; fields as in lsdcd_wall_impacts.
@@ -1205,13 +1207,16 @@ class Wall {
     c::check(lsdcd_wall_get_contacts(get(), &ask));
     const std::size_t n = ask.room = ask.contacts;
     std::vector<std::ptrdiff_t> spheres(n);
-    std::vector<int> meshes(n);
-    std::vector<double> forces(3 * n), points(3 * n), overlaps(n);
+    std::vector<int> meshes(n), ended(n);
+    std::vector<double> forces(3 * n), points(3 * n), overlaps(n), powers(5 * n), energies(5 * n);
     ask.sphere = spheres.data();
     ask.mesh = meshes.data();
     ask.force = forces.data();
     ask.point = points.data();
     ask.overlap = overlaps.data();
+    ask.dissipated_power = powers.data();
+    ask.dissipated = energies.data();
+    ask.has_ended = ended.data();
     c::check(lsdcd_wall_get_contacts(get(), &ask));
     std::vector<WallContact> all(n);
     for (std::size_t i = 0; i < n; i++) {
@@ -1222,6 +1227,11 @@ class Wall {
         all[i].force[k] = forces[3 * i + k];
         all[i].point[k] = points[3 * i + k];
       }
+      for (std::size_t k = 0; k < 5; k++) {
+        all[i].dissipated_power[k] = powers[5 * i + k];
+        all[i].dissipated[k] = energies[5 * i + k];
+      }
+      all[i].has_ended = ended[i] != 0;
     }
     return all;
   }

@@ -194,6 +194,12 @@ int lsdcd_wall_get_contacts(lsdcd_wall *wall, lsdcd_wall_contacts *contacts)
       if (to.sphere) to.sphere[i] = c.sphere;
       if (to.mesh) to.mesh[i] = c.mesh;
       if (to.overlap) to.overlap[i] = c.overlap;
+      if (to.has_ended) to.has_ended[i] = c.has_ended;
+      for (int k = 0; k < kLossCauses; k++) {
+        if (to.dissipated_power)
+          to.dissipated_power[kLossCauses * i + k] = c.losses ? c.losses->power[k] : 0;
+        if (to.dissipated) to.dissipated[kLossCauses * i + k] = c.losses ? c.losses->energy[k] : 0;
+      }
       for (int k = 0; k < 3; k++) {
         if (to.force) to.force[3 * i + k] = c.force[k];
         if (to.point) to.point[3 * i + k] = c.point[k];

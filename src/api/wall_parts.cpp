@@ -49,12 +49,12 @@ std::string numbers_of(const Chosen<Model> &chosen)
                         : "";
 }
 
-// `modulus` is 3/4 k_normal; `for_shapes`, `keeps_forces`, `keeps_at_nodes` and `keeps_touch` are the wall's.
+// `modulus` is 3/4 k_normal; `for_shapes` and those that begin with `keeps` are the wall's.
 std::string text_of(const ContactLaw &law)
 {
   const auto &[normal, k_normal, modulus, surface_energy, damping, eta, tangential, k_tangent,
                gamma_tangent, xgammat, mu, rolling, twisting, heat, cohesion, limit_damping,
-               for_shapes, keeps_forces, keeps_at_nodes, keeps_touch] = law;
+               for_shapes, keeps_forces, keeps_at_nodes, keeps_losses, keeps_touch] = law;
   return sub_models_text(law) + " with " +
          row_of(k_normal, surface_energy, eta, k_tangent, gamma_tangent, xgammat, mu) +
          numbers_of(rolling) + numbers_of(twisting) + numbers_of(heat) + numbers_of(cohesion) +

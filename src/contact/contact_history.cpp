@@ -46,13 +46,19 @@ int ContactHistory::pack(int i, double *buffer) const
 
 int ContactHistory::unpack(int i, const double *buffer)
 {
+  return unpack(i, buffer, n_extra_);
+}
+
+int ContactHistory::unpack(int i, const double *buffer, int n_extra)
+{
   const double *at = buffer;
   arrived_.resize(static_cast<std::size_t>(*at++));
   arrived_extra_.clear();
   for (Spring &s : arrived_) {
     at = unpack_spring(at, s);
-    arrived_extra_.insert(arrived_extra_.end(), at, at + n_extra_);
-    at += n_extra_;
+    arrived_extra_.insert(arrived_extra_.end(), at, at + std::min(n_extra, n_extra_));
+    arrived_extra_.resize(arrived_extra_.size() + std::max(n_extra_ - n_extra, 0), 0);
+    at += n_extra;
   }
   set(i, arrived_.data(), arrived_extra_.data(), static_cast<int>(arrived_.size()));
   return static_cast<int>(at - buffer);

@@ -57,7 +57,9 @@ class ContactHistory {
   int packed_size(int i) const { return 1 + doubles_per_spring() * count_[i]; }
   int pack(int i, double *buffer) const;      // returns packed_size(i)
   int unpack(int i, const double *buffer);    // returns how many numbers were read
-  int largest_packed_size() const;            // over all spheres
+  // The same of numbers with n_extra others beside each spring: the last ones are left out, or are 0.
+  int unpack(int i, const double *buffer, int n_extra);
+  int largest_packed_size() const;    // over all spheres
 
   std::size_t pool_size() const { return pool_.size(); }
   std::size_t bytes() const;

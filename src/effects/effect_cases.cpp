@@ -89,6 +89,8 @@ std::vector<EffectCase> effect_cases()
       [](EngineSettings &s) { s.law().keeps_forces = true; });
   add("energy of triangles", "energy, mesh_fields", "books of energy",
       [](EngineSettings &s) { s.energy_places = true; });
+  add("energy of contacts", "energy, each_contact", "books of energy",
+      [](EngineSettings &s) { s.law().keeps_losses = true; });
   add("impacts", "impacts", "tangential spring", [](EngineSettings &s) {
     s.law().keeps_touch = true;
     s.impact_speed = 0.01;

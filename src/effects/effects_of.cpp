@@ -64,6 +64,8 @@ std::vector<Effect> effects_of(const EngineSettings &s)
         {"books of energy", (kKeptForces + (s.law().keeps_at_nodes ? kKeptAtNodes : 0)) *
                                 static_cast<int>(sizeof(Real))});
   if (s.energy_places) effects.push_back({"energy of triangles", 0});
+  if (s.law().keeps_losses)
+    effects.push_back({"energy of contacts", kKeptLosses * static_cast<int>(sizeof(Real))});
   if (s.impact_speed > 0) effects.push_back({"impacts", 0});
   if (s.wear == WearModel::archard) effects.push_back({"wear archard", 0});
   if (s.wear == WearModel::finnie) effects.push_back({"wear finnie", 0});

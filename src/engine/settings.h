@@ -48,7 +48,7 @@ struct EngineSettings {
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
   HostNames names;        // for errors
 
-  bool records_energy() const { return energy_places || impact_speed > 0; }
+  bool records_energy() const { return energy_places || impact_speed > 0 || law().keeps_losses; }
   // Returns the first law of the table: the only one, or the sub-models of all.
   ContactLaw &law() { return laws.laws.front(); }
   const ContactLaw &law() const { return laws.laws.front(); }

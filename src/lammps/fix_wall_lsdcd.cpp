@@ -38,6 +38,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -134,7 +135,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   if (spec().each_contact) {
     local_flag = 1;
     size_local_rows = 0;
-    size_local_cols = static_cast<int>(decltype(contact_rows)::value_type().size());
+    size_local_cols = spec().energy ? 20 : 9;
     local_freq = 1;
   }
 
@@ -616,21 +617,30 @@ void FixWallLsdcd::fill_each_contact()
 {
   need_ids();
   contact_rows.clear();
-  wall->for_contacts([this](const lsdcd::WallContact &c) {
-    contact_rows.push_back({static_cast<double>(atom->tag[c.sphere]), c.mesh + 1.0, c.force.x,
-                            c.force.y, c.force.z, c.point.x, c.point.y, c.point.z, c.overlap});
+  const auto put = [this](std::initializer_list<double> numbers) {
+    contact_rows.insert(contact_rows.end(), numbers);
+  };
+  wall->for_contacts([&](const lsdcd::WallContact &c) {
+    put({static_cast<double>(atom->tag[c.sphere]), c.mesh + 1.0, c.force.x, c.force.y, c.force.z,
+         c.point.x, c.point.y, c.point.z, c.overlap});
+    if (!c.losses) return;
+    for (const double power : c.losses->power) put({power});
+    for (const double energy : c.losses->energy) put({energy});
+    put({c.has_ended ? 1.0 : 0.0});
   });
   contact_row_at.clear();
-  for (auto &row : contact_rows) contact_row_at.push_back(row.data());
+  for (std::size_t at = 0; at < contact_rows.size(); at += size_local_cols)
+    contact_row_at.push_back(contact_rows.data() + at);
   array_local = contact_row_at.data();
-  size_local_rows = static_cast<int>(contact_rows.size());
+  size_local_rows = static_cast<int>(contact_row_at.size());
 }
 
 double FixWallLsdcd::memory_usage()
 {
   double bytes = wall->bytes() + (shape_atoms ? shape_atoms->bytes() : 0) +
                  damping_mass.capacity() * sizeof(double);
-  bytes += (double) contact_rows.capacity() * (sizeof contact_rows[0] + sizeof contact_row_at[0]);
+  bytes += (double) contact_rows.capacity() * sizeof(double) +
+           (double) contact_row_at.capacity() * sizeof(double *);
   if (spec().contacts) bytes += (double) atom->nmax * size_peratom_cols * sizeof(double);
   return bytes;
 }

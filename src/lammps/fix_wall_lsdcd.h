@@ -16,7 +16,6 @@
 #include "lammps/wall_picture.h"
 #include "wall/wall.h"
 
-#include <array>
 #include <deque>
 #include <memory>
 #include <string>
@@ -102,7 +101,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   int room = 0;                        // this wall's part of maxexchange
   bool wall_in_minimize_warned = false, doubled_warned = false, pairs_warned = false;
   WallPicture picture;
-  std::vector<std::array<double, 9>> contact_rows;    // of the local array
+  std::vector<double> contact_rows;    // of the local array, size_local_cols numbers each
   std::vector<double *> contact_row_at;
 
   // wall/lsdcd/kk does these in its own way.

@@ -23,7 +23,7 @@ bool ContactLaw::has_history() const
 int ContactLaw::n_extra() const
 {
   int n = (for_shapes && has_history() ? 3 : 0) + (keeps_forces ? kKeptForces : 0) +
-          (keeps_at_nodes ? kKeptAtNodes : 0);
+          (keeps_at_nodes ? kKeptAtNodes : 0) + (keeps_losses ? kKeptLosses : 0);
   for (const SubModel *row : rows_of(*this)) n += row->stored.beside_shear;
   return n;
 }

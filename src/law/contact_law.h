@@ -58,6 +58,8 @@ struct ContactLaw {
   bool keeps_forces = false;
   // Beside these, KeptAtNodes.
   bool keeps_at_nodes = false;
+  // Beside these, KeptLosses, behind all that a contact keeps. Histories with it and without it are of one kind.
+  bool keeps_losses = false;
   // A contact without anything to keep keeps that it touched, so that it is known when another one begins.
   bool keeps_touch = false;
 

@@ -55,6 +55,16 @@ struct KeptAtNodes {
 };
 constexpr int kKeptAtNodes = static_cast<int>(sizeof(KeptAtNodes) / sizeof(Real));
 
+// What a contact keeps beside that where walls list contacts: what it dissipates by each cause, in the order of EnergyRow from
+// `damping` on.
+constexpr int kLossCauses = 5;
+struct KeptLosses {
+  Real power[kLossCauses];     // in the last step, energy/time
+  Real energy[kLossCauses];    // since the contact began
+  Real from;    // the number of the contact of the last step that goes on in it; -1: none
+};
+constexpr int kKeptLosses = static_cast<int>(sizeof(KeptLosses) / sizeof(Real));
+
 // Returns the energy that a spring of this force and stiffness holds.
 LSDCD_FN Real spring_energy(Real force_sq, Real k)
 {

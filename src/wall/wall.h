@@ -136,7 +136,7 @@ class Wall {
   void for_contact_rows(const std::function<void(int, const Real *)> &row) const;
 
   // Calls found(contact) for each contact of the last step of this process, where spec().each_contact, sphere after
-  // sphere. Local.
+  // sphere; where spec().energy then for those that the step has ended. Local.
   void for_contacts(const std::function<void(const WallContact &)> &found) const;
 
   // Writes the files that are due in this step.

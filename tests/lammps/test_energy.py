@@ -418,6 +418,34 @@ def test_several_meshes(folder):
     at_most("the books close", abs(six["remainder"]) / six["drive"], 1e-3)
 
 
+def test_each_contact(folder):
+    """Rows of contacts, with meshes of which one hands springs to another, and grains that go from process to process: power adds up to that of the
+    meshes in each step, and energy of those that have ended, in the dump of each step, and of those that have not, to theirs."""
+    for k in range(6):
+        stl.write(folder / f"side{k}.stl", stl.box((-1, -1, -1), (1, 1, 1), 3)[18 * k:18 * k + 18])
+    meshes = " ".join(f"mesh side{k}.stl motion rotate 0 0 0 0 1 0 2" for k in range(6))
+    script = CASK.replace("mesh cask.stl {words} energy", meshes + " energy each_contact").replace(
+        "compute         move", "compute rows all reduce sum " + " ".join(f"f_wall[{c}]" for c in range(10, 20)) + "\ncompute         move")
+    sums = [f"c_rows[{k + 1}]" for k in range(10)]
+    run = "thermo 100\ndump ends all local 1 ends.txt f_wall[20] " + " ".join(f"f_wall[{c}]" for c in range(15, 20)) + \
+        "\ndump_modify ends format float %.17g\nrun 1000\nrun 1000"
+    for ranks in (1, 2):
+        rows = lmp.read_thermo(lmp.run_well(script.format(law=CASK_LAW, dt="5e-4", run=run, columns=" ".join([*COLUMNS, *sums])), folder, ranks))
+        for row in rows:
+            b = dict(zip(("step", "ke", "spin", *NAMES, *sums), row))
+            size = sum(abs(b[f"{c} power"]) for c in CAUSES) + 1e-6
+            at_most(f"{ranks}, step {b['step']}: power", max(abs(b[f"{c} power"] - b[s]) for c, s in zip(CAUSES, sums)) / size, 1e-12)
+        ended, n = [0.0] * 5, 0
+        for line in (folder / "ends.txt").read_text().splitlines():
+            words = line.split()
+            if len(words) == 6 and words[0] == "1":
+                n, ended = n + 1, [e + float(w) for e, w in zip(ended, words[1:])]
+        fact(f"{ranks}: contacts have ended, and there are others", n > 50 and b[sums[5]] > 0, n)
+        there = [row.split() for row in (folder / "ends.txt").read_text().split("ITEM: ENTRIES")[-1].splitlines()[1:]]
+        lives = [e + sum(float(row[1 + k]) for row in there if row[0] == "0") for k, e in enumerate(ended)]
+        at_most(f"{ranks}: energy", max(abs(b[c] - life) for c, life in zip(CAUSES, lives)) / sum(b[c] for c in CAUSES), 1e-12)
+
+
 # ---- walls that turn, nodes that move, wear ----------------------------------------------
 
 PULL = "fix move all nve/sphere\nfix g all gravity 100 vector 0 0 -1"

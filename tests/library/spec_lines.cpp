@@ -63,7 +63,7 @@ class Lines {
   {
     const auto &[normal, k_normal, modulus, surface_energy, damping, eta, tangential, k_tangent,
                  gamma_tangent, xgammat, mu, rolling, twisting, heat, cohesion, limit_damping,
-                 for_shapes, keeps_forces, keeps_at_nodes, keeps_touch] = law;
+                 for_shapes, keeps_forces, keeps_at_nodes, keeps_losses, keeps_touch] = law;
     put(of + "normal", normal);
     put(of + "k_normal", k_normal);
     put(of + "modulus", modulus);
@@ -83,6 +83,7 @@ class Lines {
     put(of + "for_shapes", for_shapes);
     put(of + "keeps_forces", keeps_forces);
     put(of + "keeps_at_nodes", keeps_at_nodes);
+    put(of + "keeps_losses", keeps_losses);
     put(of + "keeps_touch", keeps_touch);
   }
   void put(const std::string &of, const std::vector<LawOfTypes> &laws)

@@ -1095,6 +1095,39 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
   }
 }
 
+// A sphere with a spring at its limit slides at the speed 2 with the force mu kn 0.03 = 15, one that is lifted has left what its spring held.
+TEST_F(wall_spec, contacts_tell_what_they_dissipate)
+{
+  api::WallSpec spec = floor();
+  spec.each_contact = spec.energy = true;
+  api::Wall wall(spec);
+  Grains grains(5, 5, 0.47, 2);
+  grains.add(1, 1, 0.47);
+  grains.v[3] = 2;
+  for (int step = 0; step < 100; step++) {
+    for (const std::size_t i : {0, 3}) grains.x[i] += 2 * kDt;
+    if (step == 99) grains.x[5] = 0.51;
+    grains.step(wall);
+  }
+  const std::vector<api::WallContact> found = wall.contacts();
+  const lsdcd_wall_totals totals = wall.totals(0);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(totals.contacts, 1);
+  EXPECT_EQ(found[0].sphere, 0);
+  EXPECT_FALSE(found[0].has_ended);
+  EXPECT_NEAR(found[0].dissipated_power[1], 30, 30 * kRounding);
+  EXPECT_EQ(found[1].sphere, 1);
+  EXPECT_TRUE(found[1].has_ended);
+  EXPECT_EQ(found[1].force, (Vector{0, 0, 0}));
+  EXPECT_NEAR(found[1].point[0], grains.x[3] - 2 * kDt, kRounding);
+  for (std::size_t cause = 0; cause < 5; cause++) {
+    EXPECT_NEAR(found[0].dissipated_power[cause] + found[1].dissipated_power[cause],
+                totals.dissipated_power[cause], 100 * kRounding);
+    EXPECT_NEAR(found[0].dissipated[cause] + found[1].dissipated[cause], totals.dissipated[cause],
+                10 * kRounding);
+  }
+}
+
 // ---- bodies ----------------------------------------------------------------------------------
 
 // A sphere at rest pushes a plate of mass 2 down.

@@ -91,8 +91,10 @@ TEST(effects, that_are_off_take_no_memory_of_the_engine)
                                  s.law().has_heat() * grown(kSpheres) * sizeof(Real) +
                                  booked * grown(kSpheres) * (sizeof(EnergyRows) + 1) +
                                  recorded * grown(kSpheres) * sizeof(int) +
-                                 s.records_energy() * grown(slots) * sizeof(EnergyRecord);
-    const std::size_t records = recorded ? 1024 * sizeof(StepContact) : 0;    // grown by doubling
+                                 s.records_energy() * grown(slots) * sizeof(EnergyRecord) +
+                                 s.law().keeps_losses * grown(slots / 2) * sizeof(EndedContact);
+    const std::size_t records =    // grown by doubling
+        recorded ? 1024 * (sizeof(StepContact) + s.law().keeps_losses * sizeof(KeptLosses)) : 0;
     EXPECT_GE(bytes, expected) << c.name;
     EXPECT_LE(bytes, expected + records) << c.name;
   }

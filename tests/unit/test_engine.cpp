@@ -541,7 +541,7 @@ TEST(engine, a_step_without_outputs_neither_copies_nor_waits)
 {
   using Law = OnWall<HertzHistoryLaw, false, false>;
   const ContactLaw p = history();
-  const Law law = {{{p.k_normal}, {p.eta}, {p.k_tangent, p.gamma_tangent, p.mu}, false}};
+  const Law law = {{{p.k_normal}, {p.eta}, {p.k_tangent, p.gamma_tangent, p.mu}, false}, {}};
   Particles particles(with_history(), 2000, 0.5, false);
   particles.engine = std::make_unique<EngineOn<CountingBackend>>(
       with_history(),

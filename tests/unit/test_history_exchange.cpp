@@ -73,6 +73,41 @@ TEST(HistoryExchange, of_features_that_are_not_there_is_dropped_and_told)
   });
 }
 
+// A wall that lists contacts with their energies keeps numbers behind the others, which one that does not list them leaves out.
+TEST(HistoryExchange, of_walls_that_keep_losses_and_that_do_not_go_to_each_other)
+{
+  FakeHost host;
+  ContactLaw plain = wall().law();
+  plain.keeps_forces = true;
+  ContactLaw listing = plain;
+  listing.keeps_losses = true;
+  const int n_plain = plain.n_extra(), n_listing = listing.n_extra();
+  ASSERT_EQ(n_listing, n_plain + kKeptLosses);
+  for (const bool to_listing : {false, true}) {
+    const ContactLaw &from = to_listing ? plain : listing, &to = to_listing ? listing : plain;
+    HistoryExchange written(host, from), read(host, to);
+    written.grow(2);
+    const Spring two[] = {{{0.25, -0.5, 0}, {0, 0, 1}, kFace, 0},
+                          {{1, 2, 0}, {0, 0, 1}, kImage, 0}};
+    std::vector<Real> extra;
+    for (int k = 0; k < 2 * from.n_extra(); k++) extra.push_back(1 + k);
+    written.on_cpu().set(1, two, extra.data(), 2);
+    std::vector<double> buffer(written.max_packed_size());
+    const auto as_it_is = [](int, FeatureCode feature) { return feature; };
+    const int size = written.pack_saved(1, buffer.data(), as_it_is);
+    read.set_kind_of_file(from.history_kind());
+    read.grow(2);
+    read.unpack_saved(1, buffer.data(), size);
+    ASSERT_EQ(read.on_cpu().count(1), 2);
+    for (int c = 0; c < 2; c++) {
+      EXPECT_EQ(read.on_cpu().of(1)[c].shear, two[c].shear);
+      for (int k = 0; k < to.n_extra(); k++)
+        EXPECT_EQ(read.on_cpu().extra_of(1)[c * to.n_extra() + k],
+                  k < n_plain ? 1 + c * from.n_extra() + k : 0);
+    }
+  }
+}
+
 TEST(HistoryExchange, follows_features_that_get_other_names)
 {
   FakeHost host;

@@ -630,12 +630,16 @@ class WallTotals(_Record):
 
 
 class WallContacts(_Record):
-    """Contacts of a wall's last step, in this process; those of a sphere come one after the other."""
+    """Contacts of a wall's last step, in this process; those of a sphere come one after the other. With `energy` those that the step has
+    ended are behind the others, without force and overlap. Causes are those of WallTotals, and all is 0 without `energy`."""
     sphere: NDArray[np.intp]       # (n,) its place in the arrays of the step, from 0
     mesh: NDArray[np.int32]        # (n,) from 0
     force: NDArray[np.float64]     # (n, 3) on the sphere
     point: NDArray[np.float64]     # (n, 3) of the mesh, the closest to the centre, or the deepest in an ellipsoid, when the step began
     overlap: NDArray[np.float64]   # (n,) length, then
+    dissipated_power: NDArray[np.float64]   # (n, 5) by cause, in the last step
+    dissipated: NDArray[np.float64]         # (n, 5) energy by cause, since the contact began
+    has_ended: NDArray[np.int32]   # (n,) 1: the sphere touched there in the step before, and no more; `point` is where it was
 
 
 class WallImpacts(_Record):
@@ -930,7 +934,8 @@ class Wall(_Owner):
         self._do(_lib.lsdcd_wall_get_contacts, self._handle, ctypes.byref(ask))
         n = ask.room = ask.contacts
         found = WallContacts(sphere=np.empty(n, np.intp), mesh=np.empty(n, np.int32), force=np.empty((n, 3)),
-                             point=np.empty((n, 3)), overlap=np.empty(n))
+                             point=np.empty((n, 3)), overlap=np.empty(n), dissipated_power=np.empty((n, 5)),
+                             dissipated=np.empty((n, 5)), has_ended=np.empty(n, np.int32))
         for name, array in vars(found).items():
             setattr(ask, name, array.ctypes.data)
         self._do(_lib.lsdcd_wall_get_contacts, self._handle, ctypes.byref(ask))

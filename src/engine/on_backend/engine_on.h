@@ -144,6 +144,7 @@ class EngineOn : public WallEngine {
     }
     state_ = StepState::none;
     results_.fetch(b_, springs_.contacts());
+    if (law_.traits.losses) results_.fetch_losses(b_, springs_.extra_of_contacts());
   }
 
   StepResults &results() override { return results_; }
@@ -304,7 +305,8 @@ class EngineOn : public WallEngine {
     are_counts_clear_ = false;
     job.step = static_cast<std::uint64_t>(std::max<std::int64_t>(0, step_.number - first_step_)) &
                DeepestOverlap::kRest;
-    if (law_.traits.records) job.records = results.begin_records(springs_.places(), settings_);
+    if (law_.traits.records)
+      job.records = results.begin_records(springs_.places(), springs_.places_read(), settings_);
     job.overflow = overflow_.data();
     if (several)
       run_slots(job);

@@ -150,6 +150,8 @@ class ResidentSprings : public Springs {
 
   // Returns the places of both pools: at least as many as there are contacts of the last step and of this one.
   std::size_t places() const { return pool_[0].size + pool_[1].size; }
+  // Returns those of the pool that the next step reads.
+  std::size_t places_read() const { return pool_[now_].size; }
 
   void swap()
   {
@@ -157,8 +159,9 @@ class ResidentSprings : public Springs {
     end_ = kUnknown;
   }
 
-  // Returns the contacts of the last step, with gaps.
+  // Return the contacts of the last step, with gaps, and the n_extra numbers of each.
   const StepContact *contacts() const { return pool_[written_].contacts.data(); }
+  const Real *extra_of_contacts() const { return pool_[written_].extra.data(); }
 
   void to_store(ContactHistory &store, int n_spheres) override
   {

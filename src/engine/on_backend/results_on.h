@@ -12,10 +12,24 @@
 #include "engine/results/total_sums.h"
 #include "engine/step/step_job.h"
 
+#include <algorithm>
+#include <cstring>
 #include <memory>
 #include <vector>
 
 namespace lsdcd {
+
+// What contacts dissipate, at the places of a pool with n numbers `extra` at each.
+struct LossesInPool {
+  const Real *extra;
+  int n;
+  LSDCD_FN KeptLosses operator[](std::size_t place) const
+  {
+    KeptLosses losses;
+    memcpy(&losses, extra + (place + 1) * n - kKeptLosses, sizeof losses);
+    return losses;
+  }
+};
 
 template <class B>
 class ResultsOn : public StepResults {
@@ -60,14 +74,21 @@ class ResultsOn : public StepResults {
         ResultColumns::of(numbers_.data(), room, step.per_sphere, adds_later, n_contacts_.data());
   }
 
-  // Returns where kernels of the step put at most so many records.
-  EnergyRecordList begin_records(std::size_t most, const EngineSettings &settings)
+  // Returns where kernels of the step put at most so many records, and contacts that have ended.
+  EnergyRecordList begin_records(std::size_t most, std::size_t most_ended,
+                                 const EngineSettings &settings)
   {
     records_.reserve(most);
     n_records_.reserve(1);
     put_one(*b_, n_records_.data(), 0);
     has_records_ = true;
-    return {records_.data(), n_records_.data(), settings.impact_speed, settings.velocity_unit};
+    if (traits_.losses) {
+      ended_there_.reserve(most_ended);
+      n_ended_.reserve(1);
+      put_one(*b_, n_ended_.data(), 0);
+    }
+    return {records_.data(),        n_records_.data(),   settings.impact_speed,
+            settings.velocity_unit, ended_there_.data(), n_ended_.data()};
   }
   EnergyRecords energy_records() const override
   {
@@ -128,7 +149,16 @@ class ResultsOn : public StepResults {
     if (traits_.energy) sum_energy(b);
     if (n_ == 0) return;
     if (step_.per_sphere) fetch_touching(b);
-    if (traits_.contacts && step_.contacts) fetch_contacts(b, contacts);
+    if (traits_.contacts && step_.contacts) contacts_ = packed_contacts<StepContact>(b, contacts);
+  }
+  // The same of what contacts dissipate, where laws keep losses; `extra`: the numbers of the contacts, with gaps.
+  void fetch_losses(B &b, const Real *extra)
+  {
+    losses_.clear();
+    ended_.clear();
+    if (n_ == 0 || !step_.contacts) return;
+    losses_ = packed_contacts<KeptLosses>(b, LossesInPool{extra, traits_.n_extra});
+    fetch_ended(b);
   }
 
   // The contacts of the last step, where the backend has them; `contacts`: with gaps.
@@ -173,11 +203,12 @@ class ResultsOn : public StepResults {
   std::size_t bytes() const
   {
     return energy_.size() * sizeof(EnergyRows) + is_booked_.size() +
-           records_.size() * sizeof(EnergyRecord) +
+           records_.size() * sizeof(EnergyRecord) + ended_there_.size() * sizeof(EndedContact) +
            (numbers_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
            (n_contacts_.size() + first_contact_.size() + stored_candidates_.size()) * sizeof(int) +
            touching_.capacity() * sizeof(TouchingSphere) +
-           contacts_.capacity() * sizeof(StepContact) +
+           contacts_.capacity() * sizeof(StepContact) + losses_.capacity() * sizeof(KeptLosses) +
+           ended_.capacity() * sizeof(EndedContact) +
            (block_sums_.size() + group_sums_.size() + sums_on_cpu_.size()) * sizeof(UnitTotals) +
            (ranges_.size() + ranges_on_cpu_.size()) * sizeof(TotalsRange);
   }
@@ -257,7 +288,9 @@ class ResultsOn : public StepResults {
     touching_ = to_cpu(b, rows, n_touching);
   }
 
-  void fetch_contacts(B &b, const StepContact *from)
+  // Returns from[place] of each contact of the step, at its place in the pool.
+  template <class T, class From>
+  std::vector<T> packed_contacts(B &b, const From &from)
   {
     const std::size_t n = n_;
     Array<int> offset(n);
@@ -267,12 +300,21 @@ class ResultsOn : public StepResults {
     copy_all(b, n_contacts, at, n);
     const std::size_t total = b.exclusive_scan(at, n);
     // The gaps between them were never written.
-    Array<StepContact> packed(total);
-    StepContact *to = packed.data();
+    Array<T> packed(total);
+    T *to = packed.data();
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       for (int c = 0; c < n_contacts[k]; c++) to[at[k] + c] = from[first_contact[k] + c];
     });
-    contacts_ = to_cpu(b, packed, total);
+    return to_cpu(b, packed, total);
+  }
+
+  // Kernels put them in any order.
+  void fetch_ended(B &b)
+  {
+    ended_ = to_cpu(b, ended_there_, static_cast<std::size_t>(read_one(b, n_ended_.data())));
+    std::sort(ended_.begin(), ended_.end(), [](const EndedContact &a, const EndedContact &c) {
+      return a.sphere != c.sphere ? a.sphere < c.sphere : a.number < c.number;
+    });
   }
 
   void sum_energy(B &b)
@@ -349,7 +391,8 @@ class ResultsOn : public StepResults {
   std::vector<EnergyRows> energy_of_mesh_;
   EnergySums<B> energy_sums_;
   Array<EnergyRecord> records_;
-  Array<int> n_records_;
+  Array<EndedContact> ended_there_;
+  Array<int> n_records_, n_ended_;
   bool has_records_ = false;    // of the last step
   Array<int> n_contacts_, first_contact_, stored_candidates_;
 

@@ -7,6 +7,7 @@
 #include "base/vec3.h"
 #include "engine/results/sum_unit.h"
 #include "geometry/feature_code.h"
+#include "law/force_parts.h"
 
 #include <cstdint>
 #include <vector>
@@ -103,6 +104,20 @@ struct EnergyRecord {
   // Of a contact that begins by an impact: its energy m v^2/2, and the speed v along the normal. Else 0.
   Real impact, speed;
 };
+static_assert(kLossCauses ==
+                  static_cast<int>(EnergyRow::adhesion) - static_cast<int>(EnergyRow::damping) + 1,
+              "causes are those of dissipated()");
+
+// A contact of the last step that this one has not.
+struct EndedContact {
+  int sphere;    // its index in Spheres
+  int number;    // among those of the sphere
+  std::uint32_t mesh;
+  int pad;       // keeps the struct free of indeterminate bytes
+  Vec3 point;    // of the wall, where it was then, in the frame of the mesh
+  KeptLosses losses;
+};
+
 struct EnergyRecords {
   const EnergyRecord *at = nullptr;
   int n = 0;
@@ -146,10 +161,15 @@ class StepResults {
   // Returns the contacts, where settings.contacts and step.contacts are set: those of touching()[0], of touching()[1] and so on.
   const std::vector<StepContact> &contacts() const { return contacts_; }
   int n_contacts() const { return static_cast<int>(contacts_.size()); }
+  // Return what each of these dissipates, and those that the step has ended, sphere after sphere: also only where laws keep losses.
+  const std::vector<KeptLosses> &losses() const { return losses_; }
+  const std::vector<EndedContact> &ended() const { return ended_; }
 
  protected:
   std::vector<TouchingSphere> touching_;
   std::vector<StepContact> contacts_;
+  std::vector<KeptLosses> losses_;
+  std::vector<EndedContact> ended_;
 };
 
 }    // namespace lsdcd

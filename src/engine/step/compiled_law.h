@@ -67,6 +67,7 @@ struct WallEffects {
   bool posed;
   bool contacts, nodes;    // keeps contacts; nodes of a mesh move
   bool records = false;    // EnergyRecord, of impacts and of what is dissipated
+  bool losses = false;     // see ContactLaw::keeps_losses; with records
 };
 
 // Is it of grains that may be no spheres (shape_law.h)?
@@ -74,10 +75,21 @@ template <class Law>
 struct IsShapeLaw : std::false_type {
 };
 
+// What a law with books and records has beside its sub-models.
+template <bool kLosses_>
+struct LossesOnWall {
+  static constexpr bool kLosses = false;
+};
+template <>
+struct LossesOnWall<true> {
+  static constexpr bool kLosses = true;
+  bool keeps_losses;    // see ContactLaw
+};
+
 // kEnergy: books what contacts do with energy, and keeps KeptForces of each. kRecords: puts an EnergyRecord where one is due.
 template <class Law, bool kPosed_, bool kKeepsContacts_, bool kNodes_ = false,
           bool kEnergy_ = false, bool kRecords_ = false>
-struct OnWall : Law {
+struct OnWall : Law, LossesOnWall<kEnergy_ && kRecords_> {
   static constexpr bool kPosed = kPosed_, kKeepsContacts = kKeepsContacts_, kNodes = kNodes_,
                         kEnergy = kEnergy_, kRecords = kRecords_;
   static constexpr bool kShapes = IsShapeLaw<Law>::value;
@@ -85,12 +97,14 @@ struct OnWall : Law {
   static constexpr bool kSetsUp = kEnergy || kRecords;
 };
 
-// Returns how many numbers of a contact engines store beside its shear displacement: those of the law, then KeptForces and
-// KeptAtNodes.
+// Returns how many numbers of a contact engines store beside its shear displacement: those of the law, then KeptForces,
+// KeptAtNodes and KeptLosses.
 template <class Law>
 LSDCD_FN int n_stored(const Law &law)
 {
-  return n_extra(law) + (Law::kEnergy ? kKeptForces + (Law::kNodes ? kKeptAtNodes : 0) : 0);
+  int n = n_extra(law) + (Law::kEnergy ? kKeptForces + (Law::kNodes ? kKeptAtNodes : 0) : 0);
+  if constexpr (Law::kLosses) n += law.keeps_losses ? kKeptLosses : 0;
+  return n;
 }
 
 // The kernels that a law has, by their effects. plain: {none}. moving_or_both: {moving}, {moving + contacts}.
@@ -104,23 +118,23 @@ enum class WallKernels { plain, moving_or_both, plain_or_both, energy, energy_re
 template <WallKernels kernels, class Law, class Make>
 auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
 {
-  if constexpr (kernels == WallKernels::plain) return make(OnWall<Law, false, false>{law});
+  if constexpr (kernels == WallKernels::plain) return make(OnWall<Law, false, false>{law, {}});
   if constexpr (kernels == WallKernels::energy)
-    return effects.nodes ? make(OnWall<Law, true, true, true, true>{law})
-                         : make(OnWall<Law, true, true, false, true>{law});
+    return effects.nodes ? make(OnWall<Law, true, true, true, true>{law, {}})
+                         : make(OnWall<Law, true, true, false, true>{law, {}});
   if constexpr (kernels == WallKernels::energy_records)
-    return effects.nodes ? make(OnWall<Law, true, true, true, true, true>{law})
-                         : make(OnWall<Law, true, true, false, true, true>{law});
+    return effects.nodes ? make(OnWall<Law, true, true, true, true, true>{law, {effects.losses}})
+                         : make(OnWall<Law, true, true, false, true, true>{law, {effects.losses}});
   if constexpr (kernels == WallKernels::impacts)
-    return effects.nodes ? make(OnWall<Law, true, true, true, false, true>{law})
-                         : make(OnWall<Law, true, true, false, false, true>{law});
+    return effects.nodes ? make(OnWall<Law, true, true, true, false, true>{law, {}})
+                         : make(OnWall<Law, true, true, false, false, true>{law, {}});
   if constexpr (kernels == WallKernels::moving_or_both)
-    if (!effects.contacts) return make(OnWall<Law, true, false>{law});
+    if (!effects.contacts) return make(OnWall<Law, true, false>{law, {}});
   if constexpr (kernels == WallKernels::plain_or_both)
-    if (!effects.contacts && !effects.posed) return make(OnWall<Law, false, false>{law});
+    if (!effects.contacts && !effects.posed) return make(OnWall<Law, false, false>{law, {}});
   if constexpr (kernels == WallKernels::moving_or_both || kernels == WallKernels::plain_or_both)
-    return effects.nodes ? make(OnWall<Law, true, true, true>{law})
-                         : make(OnWall<Law, true, true>{law});
+    return effects.nodes ? make(OnWall<Law, true, true, true>{law, {}})
+                         : make(OnWall<Law, true, true>{law, {}});
 }
 
 struct StepJob;
@@ -128,6 +142,7 @@ struct StepJob;
 // The numbers that engines store and move for a law.
 struct LawTraits {
   bool history, heat, contacts, energy, records;
+  bool losses;     // does a contact keep KeptLosses, behind all other numbers?
   bool sets_up;    // does a setup store what contacts keep?
   // n_vectors, at most kMostVectors: of the extra numbers those that come first, three each
   int n_extra, n_vectors;
@@ -136,14 +151,15 @@ struct LawTraits {
 template <class Law>
 LawTraits traits_of(const Law &law)
 {
-  bool heat = false;
+  bool heat = false, losses = false;
   if constexpr (Law::kHeat) heat = law.has_heat();
+  if constexpr (Law::kLosses) losses = law.keeps_losses;
   static_assert(Law::kVectors <= kMostVectors, "springs are turned with all of them");
   int n_vectors = 0;
   if constexpr (Law::kVectors > 0)
     for (int k = 0; k < Law::kVectors; k++) n_vectors += law.stores(k);
-  return {Law::kHistory, heat,         Law::kKeepsContacts, Law::kEnergy,
-          Law::kRecords, Law::kSetsUp, n_stored(law),       n_vectors};
+  return {Law::kHistory, heat,         Law::kKeepsContacts, Law::kEnergy, Law::kRecords,
+          losses,        Law::kSetsUp, n_stored(law),       n_vectors};
 }
 
 // A law compiled for one backend; run() does the step of n candidates, see run_compiled_law().
@@ -158,7 +174,7 @@ struct CompiledLaw {
 inline WallEffects wall_effects(const EngineSettings &s)
 {
   return {s.surface.moves() || s.moves || uses_slots(s), s.contacts || s.bodies || s.nodes, s.nodes,
-          s.records_energy()};
+          s.records_energy(), s.law().keeps_losses};
 }
 
 }    // namespace lsdcd

@@ -219,7 +219,7 @@ struct EnergyBook {
   // Books the second half of the last step's contacts with this mesh, and the rest of those that have ended.
   template <class Springs>
   LSDCD_FN void close(const Law &law, const MeshFeaturesView &wall, const ForceSettings &settings,
-                      const SphereStateWith<Springs> &s, const EnergyMarks &marks,
+                      const SphereStateWith<Springs> &s, const MarksOf<Law> &marks,
                       [[maybe_unused]] const EnergyRecordList &records)
   {
     const Real dt = settings.dt;
@@ -228,8 +228,8 @@ struct EnergyBook {
       const KeptForces old = kept(law, s, k);
       rows[EnergyRow::seen] += old.held;
       if (!settings.update) continue;
-      [[maybe_unused]] Real lost_before = 0;
-      if constexpr (Law::kRecords) lost_before = dissipated(rows);
+      [[maybe_unused]] std::conditional_t<Law::kLosses, EnergyRows, Real> before = {};
+      if constexpr (Law::kLosses) before = rows;
       const FeatureCode feature = s.springs[k].feature;
       Vec3 n = s.springs[k].normal;
       RelativeMotion m = relative_motion(settings, s, n, old.distance * n, true);
@@ -251,14 +251,76 @@ struct EnergyBook {
         rows[EnergyRow::turned_springs] += energy_left(old, slip, rolling, twisting, dt);
       else
         book_springs_at_end(old, n, slip, rolling, twisting, dt, rows);
-      if constexpr (Law::kRecords) {
-        const EnergyRecord lost = {feature, settings.mesh, dissipated(rows) - lost_before, 0, 0};
-        records.put(lost);
-      }
+      if constexpr (Law::kLosses)
+        put_losses(law, settings, s, k, before, s.x - dt * m.v - old.distance * n, marks, records);
     }
   }
 
+  // Keeps what contact number `at` with this mesh dissipates, of which the rows were `before`, with what the contact has of the last step
+  // that goes on in it: that which it is the first to take over whole. `extra`: of all contacts with this mesh.
+  template <class Springs>
+  LSDCD_FN void keep_losses(const Law &law, const ForceSettings &settings,
+                            const SphereStateWith<Springs> &s, const Transfer &in,
+                            const EnergyRows &before, Real *extra, int at) const
+  {
+    bool goes_on = in.from >= 0 && in.part == 1 && is_own(s.springs, in.from);
+    for (int c = 0; c < at && goes_on; c++) goes_on = losses_of(law, extra, c).from != in.from;
+    KeptLosses now = {};
+    if (goes_on) now = losses_of(law, s.extra, in.from);
+    now.from = goes_on ? in.from : -1;
+    if (settings.update) {
+      for (Real &power : now.power) power = 0;
+      add_losses_since(before, settings.dt, now);
+    }
+    store(law, now, extra, at);
+  }
+
   // The rest is for add() and close(), and for those of grains that are no spheres (grain_energy.h).
+
+  // Puts what contact k of the last step has lost, of which the rows were `before`: into the list of records, and to the contact of this
+  // step in which it goes on, or into the list of those that have ended. `point`: of the wall, where it was.
+  template <class Springs>
+  LSDCD_FN void put_losses(const Law &law, const ForceSettings &settings,
+                           const SphereStateWith<Springs> &s, int k, const EnergyRows &before,
+                           const Vec3 &point, const LossMarks &marks,
+                           const EnergyRecordList &records) const
+  {
+    const EnergyRecord lost = {s.springs[k].feature, settings.mesh,
+                               dissipated(rows) - dissipated(before), 0, 0};
+    records.put(lost);
+    if (!law.keeps_losses) return;
+    for (int c = 0; c < marks.n; c++) {
+      KeptLosses now = losses_of(law, marks.extra, c);
+      if (now.from != k || marks.springs[c].mesh != settings.mesh) continue;
+      add_losses_since(before, settings.dt, now);
+      store(law, now, marks.extra, c);
+      return;
+    }
+    EndedContact ended = {marks.sphere, k, settings.mesh, 0, point, losses_of(law, s.extra, k)};
+    for (Real &power : ended.losses.power) power = 0;
+    add_losses_since(before, settings.dt, ended.losses);
+    records.put(ended);
+  }
+
+  LSDCD_FN static KeptLosses losses_of(const Law &law, const Real *extra, int k)
+  {
+    KeptLosses kept;
+    memcpy(&kept, extra + (k + 1) * n_stored(law) - kKeptLosses, sizeof kept);
+    return kept;
+  }
+  LSDCD_FN static void store(const Law &law, const KeptLosses &kept, Real *extra, int k)
+  {
+    memcpy(extra + (k + 1) * n_stored(law) - kKeptLosses, &kept, sizeof kept);
+  }
+  LSDCD_FN void add_losses_since(const EnergyRows &before, Real dt, KeptLosses &to) const
+  {
+    for (int cause = 0; cause < kLossCauses; cause++) {
+      const int row = static_cast<int>(EnergyRow::damping) + cause;
+      const Real lost = rows.of[row] - before.of[row];
+      to.power[cause] += lost / dt;
+      to.energy[cause] += lost;
+    }
+  }
 
   template <class Springs>
   LSDCD_FN static KeptForces kept(const Law &law, const SphereStateWith<Springs> &s, int k)

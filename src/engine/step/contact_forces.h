@@ -56,6 +56,16 @@ struct EnergyMarks {
   }
 };
 
+// Beside that, the contacts of this step, to which what is lost by those of the last one is added; `extra`: n_stored(law) numbers of each.
+struct LossMarks : EnergyMarks {
+  int sphere = 0;
+  const Spring *springs = nullptr;
+  Real *extra = nullptr;
+  int n = 0;
+};
+template <class Law>
+using MarksOf = std::conditional_t<Law::kLosses, LossMarks, EnergyMarks>;
+
 // Books what the contacts of a sphere with one mesh do with energy in a step (contact_energy.h).
 template <class Law>
 struct EnergyBook;
@@ -66,11 +76,15 @@ struct EnergyRecordList {
   int *n;
   Real impact_speed;     // impacts that are faster are recorded; 0: none are
   Real velocity_unit;    // see EngineSettings
+  // Of contacts that have ended, where laws keep losses.
+  EndedContact *ended;
+  int *n_ended;
 
   LSDCD_FN void put(const EnergyRecord &record) const
   {
     if (record.dissipated != 0 || record.impact > 0) at[fetch_add(n, 1)] = record;
   }
+  LSDCD_FN void put(const EndedContact &contact) const { ended[fetch_add(n_ended, 1)] = contact; }
 };
 
 template <class Law>
@@ -336,11 +350,11 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     const auto f = law.evaluate(c, memory);
     if constexpr (Law::kSetsUp)
       if (!settings.update) memory = begun;
-    [[maybe_unused]] Real lost_before = 0;
+    [[maybe_unused]] std::conditional_t<Law::kLosses, EnergyRows, Real> before = {};
     [[maybe_unused]] Real slid_before = 0;
     if constexpr (Law::kEnergy) {
       slid_before = sink.book->rows[EnergyRow::slider];
-      if constexpr (Law::kRecords) lost_before = dissipated(sink.book->rows);
+      if constexpr (Law::kLosses) before = sink.book->rows;
       const BookedLengths lengths = booked_lengths(set, i, arm, c);
       const BookedContact<Law> booked = {c,
                                          f,
@@ -359,7 +373,11 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
             sink.friction_heat * (sink.book->rows[EnergyRow::slider] - slid_before) / c.dt;
     if constexpr (Law::kRecords) {
       EnergyRecord record = {set.feature[i], mesh, 0, 0, 0};
-      if constexpr (Law::kEnergy) record.dissipated = dissipated(sink.book->rows) - lost_before;
+      if constexpr (Law::kLosses) {
+        record.dissipated = dissipated(sink.book->rows) - dissipated(before);
+        if (law.keeps_losses)
+          sink.book->keep_losses(law, settings, s, in, before, sink.extra, out.n_contacts);
+      }
       if (settings.update && in.from < 0) add_impact(c, sink.records, record);
       sink.records.put(record);
     }

@@ -104,7 +104,8 @@ void add_grain(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wa
 // As EnergyBook::close(), of grain i, which may be a sphere.
 template <class Law, class Springs>
 void close_grain(const Law &law, const StepJob &job, const LawAtMesh<Law> &mesh, std::size_t i,
-                 const SphereStateWith<Springs> &s, const EnergyMarks &marks, EnergyBook<Law> &book)
+                 const SphereStateWith<Springs> &s, const MarksOf<Law> &marks,
+                 EnergyBook<Law> &book)
 {
   const ForceSettings &settings = mesh.settings;
   const MeshFeaturesView &wall = mesh.grid.wall;
@@ -121,8 +122,8 @@ void close_grain(const Law &law, const StepJob &job, const LawAtMesh<Law> &mesh,
     const KeptForces old = EnergyBook<Law>::kept(law, s, k);
     rows[EnergyRow::seen] += old.held;
     if (!settings.update) continue;
-    [[maybe_unused]] Real lost_before = 0;
-    if constexpr (Law::kRecords) lost_before = dissipated(rows);
+    [[maybe_unused]] std::conditional_t<Law::kLosses, EnergyRows, Real> before = {};
+    if constexpr (Law::kLosses) before = rows;
     const FeatureCode feature = s.springs[k].feature;
     const Vec3 n = s.springs[k].normal;
     const Real *const at = s.extra + k * n_stored(law);
@@ -137,8 +138,8 @@ void close_grain(const Law &law, const StepJob &job, const LawAtMesh<Law> &mesh,
       rows[EnergyRow::turned_springs] += energy_left(old, along, {0, 0, 0}, 0, dt);
     else
       book_springs_at_end(old, n, along, {0, 0, 0}, 0, dt, rows);
-    if constexpr (Law::kRecords)
-      job.records.put({feature, settings.mesh, dissipated(rows) - lost_before, 0, 0});
+    if constexpr (Law::kLosses)
+      book.put_losses(law, settings, s, k, before, s.x - dt * m.v - from_foot, marks, job.records);
   }
 }
 

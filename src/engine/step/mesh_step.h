@@ -142,12 +142,12 @@ struct OneMeshSphere {
 // Does that of close_books() for a grain of a law with kShapes (grain_energy.h).
 template <class Law, class Springs>
 void close_grain(const Law &law, const StepJob &job, const LawAtMesh<Law> &mesh, std::size_t i,
-                 const SphereStateWith<Springs> &s, const EnergyMarks &marks,
+                 const SphereStateWith<Springs> &s, const MarksOf<Law> &marks,
                  EnergyBook<Law> &book);
 
 // Books at each mesh of a sphere what has become of its contacts of the last step, once those of this step are booked.
 template <class Law, class Sphere>
-LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const EnergyMarks &marks)
+LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const MarksOf<Law> &marks)
 {
   for (int m = 0; m < sphere.n_meshes(); m++) {
     const auto k = sphere.begin() + m;
@@ -181,7 +181,8 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
 {
   const auto begin = sphere.begin();
   const std::size_t i = sphere.i;
-  [[maybe_unused]] EnergyMarks marks;
+  [[maybe_unused]] MarksOf<Law> marks;
+  if constexpr (Law::kLosses) marks.sphere = static_cast<int>(i);
   if constexpr (Law::kEnergy)
     for (int m = 0; m < sphere.n_meshes(); m++) job.is_booked[begin + m] = 0;
   if (set.n == 0) {
@@ -252,6 +253,11 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     if constexpr (Law::kPosed)
       if (settings.pose.placed) to_box(settings.pose, out);
     add_force(job, k, i, sphere.in_box(), out);
+  }
+  if constexpr (Law::kLosses) {
+    marks.springs = sink.springs;
+    marks.extra = sink.extra;
+    marks.n = n_done;
   }
   if constexpr (Law::kEnergy) close_books<Law>(job, sphere, marks);
   if constexpr (Sphere::kSeveral)

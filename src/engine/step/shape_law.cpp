@@ -37,14 +37,15 @@ CompiledLaw<CpuBackend> compiled(const Base &base, ShapeWork &work)
   const auto evaluate = [](const LawBytes &of, const Contact &c, ContactMemory<0> &memory) {
     return static_cast<ContactForce>(of.as<Base>().evaluate(c, memory));
   };
-  const Law law = {{&work.laws.back(), evaluate, reads_radius(base), &work, nullptr, nullptr}};
+  const Law law = {{&work.laws.back(), evaluate, reads_radius(base), &work, nullptr, nullptr}, {}};
   return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
 }
 
 // Returns a law for shapes with books of energy, by one of spheres that says what its force is made of. What that keeps beside its spring is
 // of effects that are off.
 template <bool kRecords, class Base>
-CompiledLaw<CpuBackend> booked(const Base &base, bool reads, ShapeWork &work)
+CompiledLaw<CpuBackend> booked(const Base &base, bool reads, [[maybe_unused]] bool keeps_losses,
+                               ShapeWork &work)
 {
   static_assert(!Base::kBeyondContact, "such laws are not for shapes");
   using Law = OnWall<ShapeLaw<true, true>, true, true, false, true, kRecords>;
@@ -63,7 +64,8 @@ CompiledLaw<CpuBackend> booked(const Base &base, bool reads, ShapeWork &work)
   const auto energy = [](const LawBytes &of, const Contact &c, Real overlap) {
     return of.as<Base>().normal_energy(c, overlap);
   };
-  const Law law = {{&work.laws.back(), evaluate, reads, &work, parts, energy}};
+  Law law = {{&work.laws.back(), evaluate, reads, &work, parts, energy}, {}};
+  if constexpr (kRecords) law.keeps_losses = keeps_losses;
   return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
 }
 
@@ -75,10 +77,11 @@ CompiledLaw<CpuBackend> booked_law(const ContactLaw &p, ShapeWork &work)
       using Base = std::decay_t<decltype(law)>;
       return booked<kRecords>(
           AddedModel<Base, true>{law, family_of<AnyRolling>(p.rolling), {0}, p.k_tangent},
-          reads_radius(law), work);
+          reads_radius(law), p.keeps_losses, work);
     });
   const auto law = granular_model<true, true, true>(p, TouchingNormal{p.normal, p.k_normal, 0});
-  return booked<kRecords>(law, law.uses_contact_radius || law.elastic.uses_contact_radius(), work);
+  return booked<kRecords>(law, law.uses_contact_radius || law.elastic.uses_contact_radius(),
+                          p.keeps_losses, work);
 }
 
 CompiledLaw<CpuBackend> compiled_law(const ContactLaw &p, bool records, ShapeWork &work)

@@ -37,7 +37,7 @@ std::vector<ContactLaw> laws_of(const WallSpec &wall, const std::vector<int> &me
   for (const int mesh : meshes) {
     ContactLaw &law = laws.emplace_back(law_of_all_types(wall, mesh));
     law.heat = HeatModel::none;
-    law.for_shapes = law.keeps_touch = false;
+    law.for_shapes = law.keeps_touch = law.keeps_losses = false;
   }
   return laws;
 }

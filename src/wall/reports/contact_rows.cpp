@@ -30,12 +30,23 @@ void for_contact_rows(const StepResults &results, const std::function<void(int, 
 void for_contacts(WallEngine &engine, const std::vector<Pose> &poses,
                   const std::function<void(const WallContact &)> &found)
 {
-  for_each_contact(engine.results(), [&](const TouchingSphere &t, const StepContact &contact) {
+  const StepResults &results = engine.results();
+  const KeptLosses *losses = results.losses().empty() ? nullptr : results.losses().data();
+  for_each_contact(results, [&](const TouchingSphere &t, const StepContact &contact) {
     const Pose &pose = poses[contact.mesh];
     const Vec3 arm = pose.turn_to_box(contact.arm);
     found({t.sphere, static_cast<int>(contact.mesh), -pose.turn_to_box(contact.force), t.x - arm,
-           engine.overlap(t, contact, pose)});
+           engine.overlap(t, contact, pose), false, losses});
+    if (losses) losses++;
   });
+  for (const EndedContact &c : results.ended())
+    found({c.sphere,
+           static_cast<int>(c.mesh),
+           {0, 0, 0},
+           poses[c.mesh].to_box(c.point),
+           0,
+           true,
+           &c.losses});
 }
 
 }    // namespace lsdcd

@@ -12,12 +12,15 @@
 
 namespace lsdcd {
 
-// A contact of a sphere with a mesh. Forces are those of a step, places those that it began with.
+// A contact of a sphere with a mesh. Forces are those of a step, places those that it began with. Of a contact that the step has ended
+// both are 0, and the point is where it was.
 struct WallContact {
   int sphere, mesh;
   Vec3 force;      // on the sphere
   Vec3 point;      // of the mesh: the closest to the centre, or the deepest in a grain of shape
   Real overlap;    // length
+  bool has_ended = false;
+  const KeptLosses *losses = nullptr;    // until the next step; null: no energy is booked
 };
 
 // See the functions of Wall with these names. `poses`: of its meshes in the step of the results.

@@ -18,6 +18,7 @@ WallSpec in_units(WallSpec spec, Real pressure)
     law.for_shapes = spec.shapes;
     law.keeps_forces = spec.energy;
     law.keeps_at_nodes = spec.energy && spec.has_nodes();
+    law.keeps_losses = spec.energy && spec.each_contact;
     law.keeps_touch = spec.impact_speed > 0;
   };
   for (LawOfTypes &row : spec.laws) convert(row.law);

@@ -5,8 +5,10 @@
 
 #include "base/number_words.h"
 #include "contact/contact_set.h"
+#include "law/force_parts.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 
 namespace lsdcd {
@@ -69,15 +71,17 @@ int HistoryExchange::pack_saved(int i, double *buffer, const FeatureName &name) 
   return size;
 }
 
-// Another law may have kept other numbers for each contact, and this one none.
+// Another law may have kept other numbers for each contact, and this one none. One of our kind has KeptLosses or not.
 void HistoryExchange::unpack_saved(int i, const double *buffer, int size)
 {
   const int count = static_cast<int>(buffer[0]);
   if (count == 0) return;
-  if (!is_on() || !kind_is_ours_ || size != 1 + count * springs_.doubles_per_spring())
+  const int n_extra = (size - 1) / count - kPackedSpring, more = n_extra - springs_.n_extra();
+  if (!is_on() || !kind_is_ours_ || size != 1 + count * (kPackedSpring + n_extra) ||
+      !(more == 0 || std::abs(more) == kKeptLosses))
     other_law_++;
   else
-    springs_.unpack(i, buffer);
+    springs_.unpack(i, buffer, n_extra);
 }
 
 int HistoryExchange::drop_unknown(int n, const std::function<bool(const Spring &)> &is_there)
