@@ -221,7 +221,7 @@ lsdcd::Box FixInsertLsdcd::zone() const
 
 int FixInsertLsdcd::setmask()
 {
-  return PRE_EXCHANGE | POST_RUN;
+  return PRE_EXCHANGE | POST_RUN | INITIAL_INTEGRATE | INITIAL_INTEGRATE_RESPA;
 }
 
 void FixInsertLsdcd::init()
@@ -266,17 +266,38 @@ void FixInsertLsdcd::init()
 
 void FixInsertLsdcd::setup(int /*vflag*/)
 {
-  insertion->begin_run(update->ntimestep, update->dt);
-  follow_schedule();
-  refused_seen = insertion->refused();
-  inserted_before = insertion->inserted();
-  told = false;
+  begin_schedule(update->ntimestep);
+  begin_report();
 }
 
 void FixInsertLsdcd::reset_dt()
 {
-  insertion->begin_run(update->ntimestep, update->dt);
+  begin_schedule(update->ntimestep);
+}
+
+// LAMMPS 29Sep2021 does not tell fixes that the command timestep has changed it, and a run may have no setup.
+void FixInsertLsdcd::initial_integrate(int /*vflag*/)
+{
+  if (update->dt != schedule_dt) begin_schedule(update->ntimestep - 1);
+}
+
+void FixInsertLsdcd::initial_integrate_respa(int vflag, int /*ilevel*/, int /*iloop*/)
+{
+  FixInsertLsdcd::initial_integrate(vflag);
+}
+
+void FixInsertLsdcd::begin_schedule(bigint step)
+{
+  schedule_dt = update->dt;
+  insertion->begin_run(step, schedule_dt);
   follow_schedule();
+}
+
+void FixInsertLsdcd::begin_report()
+{
+  refused_seen = insertion->refused();
+  inserted_before = insertion->inserted();
+  told = false;
 }
 
 void FixInsertLsdcd::follow_schedule()
@@ -538,11 +559,12 @@ std::string FixInsertLsdcd::inserted_text() const
 void FixInsertLsdcd::post_run()
 {
   const std::int64_t came = insertion->inserted() - inserted_before;
-  if (came != 0) log(inserted_text());
-  if (insertion->owed().empty()) return;
   const lsdcd::Refused &all = insertion->refused();
   const lsdcd::Refused in_run = {all.no_place - refused_seen.no_place,
                                  all.grains - refused_seen.grains, all.walls - refused_seen.walls};
+  begin_report();
+  if (came != 0) log(inserted_text());
+  if (insertion->owed().empty()) return;
   warn(late_text("at the end", in_run) + "; this run inserted " + lsdcd::counted(came, "grain") +
        ". " + remedy(in_run));
 }

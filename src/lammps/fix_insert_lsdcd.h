@@ -28,6 +28,8 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   int setmask() override;
   void init() override;
   void setup(int) override;
+  void initial_integrate(int) override;
+  void initial_integrate_respa(int, int, int) override;
   void pre_exchange() override;
   void reset_dt() override;
   void post_run() override;
@@ -59,6 +61,7 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
       0;                // of grains that have places beside the walls; on the first process
   bool told = false;    // in this run, that grains have no place
   bool seed_warned = false;
+  double schedule_dt = 0;
 
   void read_face();
   void find_region();
@@ -67,7 +70,9 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   std::vector<lsdcd::Insertion::Placed> choose(lsdcd::Refused &);
   void create(const std::vector<lsdcd::Insertion::Placed> &);
   bool owns(double *) const;
+  void begin_schedule(bigint step);
   void follow_schedule();
+  void begin_report();
   void check_temperature() const;
   void warn_of_seed(const std::vector<Fix *> &fixes);
   void set_properties(int) const;

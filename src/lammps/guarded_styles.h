@@ -49,6 +49,14 @@ class GuardedFix : public Style {
   {
     this->run_core([&] { Style::setup_pre_force_respa(vflag, level); });
   }
+  void initial_integrate(int vflag) override
+  {
+    this->run_core([&] { Style::initial_integrate(vflag); });
+  }
+  void initial_integrate_respa(int vflag, int level, int loop) override
+  {
+    this->run_core([&] { Style::initial_integrate_respa(vflag, level, loop); });
+  }
   void pre_exchange() override
   {
     this->run_core([&] { Style::pre_exchange(); });

@@ -260,6 +260,22 @@ def test_temperature(folder):
                 "'temperature' is given, and atoms have none")
 
 
+def test_timestep(folder):
+    """The rate is one per time in a run without setup, too, whose timestep is another one."""
+    text = lmp.head("0 4 0 4 0 4", "f f f") + END + """timestep 0.001
+region          a block 0 4 0 4 0 4
+fix             in all insert/lsdcd region a numberrate 1000 diam one 0.1 dens 1
+run             50
+timestep        0.01
+run             20 pre {}
+print           "inserted $(f_in[1])"
+"""
+    for setup in ("yes", "no"):
+        said = lmp.run_well(text.format(setup), folder)
+        fact(f"pre {setup}: grains of 0.05 + 0.2 of time", "\ninserted 250\n" in said, said[-300:])
+        fact(f"pre {setup}: the second run tells its own", said.count("grains of mass") == 2, said[-2000:])
+
+
 def test_seeds(folder):
     """Two fixes draw the same numbers where they have one seed, and then the later one warns."""
     text = lmp.head("0 4 0 4 0 4", "f f f") + END + """timestep 0.001
