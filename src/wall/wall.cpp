@@ -647,7 +647,14 @@ void Wall::for_contact_rows(const std::function<void(int, const Real *)> &row) c
 
 void Wall::for_contacts(const std::function<void(const WallContact &)> &found) const
 {
-  if (cutoff() > 0) lsdcd::for_contacts(*engine_, poses_, found);
+  if (cutoff() == 0) return;
+  // In a snapshot no time has passed, and springs may be of another one.
+  static const KeptLosses none = {};
+  const bool is_snapshot = input_.step.kind == Step::snapshot;
+  lsdcd::for_contacts(*engine_, poses_, [&](WallContact contact) {
+    if (contact.losses && is_snapshot) contact.losses = &none;
+    found(contact);
+  });
 }
 
 void Wall::write_due_files()

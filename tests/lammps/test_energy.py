@@ -425,7 +425,7 @@ def test_each_contact(folder):
         stl.write(folder / f"side{k}.stl", stl.box((-1, -1, -1), (1, 1, 1), 3)[18 * k:18 * k + 18])
     meshes = " ".join(f"mesh side{k}.stl motion rotate 0 0 0 0 1 0 2" for k in range(6))
     script = CASK.replace("mesh cask.stl {words} energy", meshes + " energy each_contact").replace(
-        "compute         move", "compute rows all reduce sum " + " ".join(f"f_wall[{c}]" for c in range(10, 20)) + "\ncompute         move")
+        "compute         move", "compute rows all reduce sum " + " ".join(f"f_wall[{c}]" for c in range(10, 20)) + " inputs local" * (lmp.version() > 20220101) + "\ncompute         move")
     sums = [f"c_rows[{k + 1}]" for k in range(10)]
     run = "thermo 100\ndump ends all local 1 ends.txt f_wall[20] " + " ".join(f"f_wall[{c}]" for c in range(15, 20)) + \
         "\ndump_modify ends format float %.17g\nrun 1000\nrun 1000"

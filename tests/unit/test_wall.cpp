@@ -503,14 +503,21 @@ TEST_F(wall, whose_mesh_recedes_has_no_snapshots)
 // No time has passed since the step before.
 TEST_F(wall, dissipates_no_power_in_a_snapshot)
 {
-  WallScene scene(floor.wall("energy"));
+  WallScene scene(floor.wall("energy each_contact"));
   scene.add({0.3, 0.2, 0.49});
   scene.v[0] = {1, 0, 0};
   scene.go(30);    // until the spring is at its limit
   const auto sliding = [&] { return scene.wall->energy().mesh(0).power(EnergyRow::slider); };
+  const auto of_contact = [&] {
+    Real power = -1;
+    scene.wall->for_contacts([&](const WallContact &c) { power = c.losses->power[1]; });
+    return power;
+  };
   ASSERT_GT(sliding(), 0);
+  EXPECT_NEAR(of_contact(), sliding(), 1e-12 * sliding());
   scene.step(Step::snapshot, true);
   EXPECT_EQ(sliding(), 0);
+  EXPECT_EQ(of_contact(), 0);
 }
 
 // A contact with an image would wear vertices that the mesh does not have, long before they are to move.
