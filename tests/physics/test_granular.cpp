@@ -551,6 +551,24 @@ TEST(heat, flows_by_the_radius_or_the_area_of_the_contact)
   }
 }
 
+// With and without a share of friction, of a contact that goes on and of one that ends.
+TEST(heat, flows_by_no_friction_in_a_step_of_no_time)
+{
+  for (const Real share : {0., 0.6}) {
+    EngineSettings law = with_tangential(TangentialModel::mindlin, 3e4, 0.5);
+    law.law().heat = {HeatModel::area, {0.7}};
+    law.law().keeps_forces = true;
+    law.friction_heat = share;
+    OneSphere s(law);
+    s.scene.set_v(0, {1, 0, 0});
+    s.at(0.01);
+    for (const Real overlap : {0.01, -0.01}) {
+      s.at(overlap, 0);
+      EXPECT_EQ(s.scene.heat(0), 0) << share << " " << overlap;
+    }
+  }
+}
+
 // ---- all of them, over seams ----------------------------------------------------------------------
 
 EngineSettings all_of_granular(NormalModel normal)

@@ -300,7 +300,7 @@ class EngineOn : public WallEngine {
     job.lists = broad_phase_.lists();
     job.springs = springs_.view();
     job.counts = counts_.data();
-    job.friction_heat = settings_.friction_heat;
+    job.friction_heat = step_.dt != 0 ? settings_.friction_heat : 0;
     if (are_counts_clear_) first_step_ = step_.number;
     are_counts_clear_ = false;
     job.step = static_cast<std::uint64_t>(std::max<std::int64_t>(0, step_.number - first_step_)) &

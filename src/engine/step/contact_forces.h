@@ -368,7 +368,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
                    sink.extra + out.n_contacts * n_stored(law));
     }
     if constexpr (Law::kEnergy && Law::kHeat)
-      if (law.has_heat() && settings.update)
+      if (law.has_heat() && settings.update && sink.friction_heat > 0)
         *sink.heat +=
             sink.friction_heat * (sink.book->rows[EnergyRow::slider] - slid_before) / c.dt;
     if constexpr (Law::kRecords) {

@@ -162,7 +162,7 @@ LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const MarksO
     else
       book.close(mesh.law, mesh.grid.wall, mesh.settings, state, marks, job.records);
     if constexpr (Law::kHeat)
-      if (mesh.law.has_heat() && mesh.settings.update)
+      if (mesh.law.has_heat() && mesh.settings.update && job.friction_heat > 0)
         job.heat_flow[sphere.i] +=
             job.friction_heat * (book.rows[EnergyRow::slider] - job.energy[k][EnergyRow::slider]) /
             mesh.settings.dt;

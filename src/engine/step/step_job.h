@@ -103,7 +103,8 @@ struct StepJob {
   OverflowScratch *overflow = nullptr;
   WorkLists work_lists = {};
   EnergyRecordList records = {};    // where the law has them
-  Real friction_heat = 0;           // see EngineSettings; read only where the law books energy
+  // See EngineSettings; 0 where no time passes. Read only where the law books energy.
+  Real friction_heat = 0;
 };
 
 LSDCD_FN std::size_t sphere_of(const StepJob &job, std::size_t k)
