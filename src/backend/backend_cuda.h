@@ -25,6 +25,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -37,11 +38,16 @@ __global__ void cuda_for_each(std::size_t n, const __grid_constant__ F f)
   if (i < n) f(i);
 }
 
-// Calls f(i) as cuda_for_each() does, by all threads of a warp together. They wait for memory: 80 registers for each
-// leave room for more of them.
+// Blocks of cuda_for_each_in_warps() at once on a processor, at least. Its threads wait for memory: 80 registers for each leave room for
+// more of them. A kernel that computes much says how many in kBlocksAtOnce.
+template <class F, class = void>
 constexpr unsigned kInWarpsBlocks = 6;
 template <class F>
-__global__ void __launch_bounds__(kInWarpsBlock, kInWarpsBlocks)
+constexpr unsigned kInWarpsBlocks<F, std::void_t<decltype(F::kBlocksAtOnce)>> = F::kBlocksAtOnce;
+
+// Calls f(i) as cuda_for_each() does, by all threads of a warp together.
+template <class F>
+__global__ void __launch_bounds__(kInWarpsBlock, kInWarpsBlocks<F>)
     cuda_for_each_in_warps(std::size_t most, const std::uint32_t *n_at, const __grid_constant__ F f)
 {
   const std::size_t n = n_at ? *n_at : most,

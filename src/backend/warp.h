@@ -108,6 +108,22 @@ struct Warp {
     for (unsigned apart = 1; apart < kSize; apart *= 2) value = fmin(value, of_other(value, apart));
     return value;
   }
+  // Returns the sum of the values of all threads, in an order that is always the same.
+  template <class T>
+  LSDCD_FN static T sum(T value)
+  {
+    for (unsigned apart = 1; apart < kSize; apart *= 2) value += of_other(value, apart);
+    return value;
+  }
+  // Returns the sum of the values of this thread and of those with lower ranks.
+  LSDCD_FN static unsigned sum_up(unsigned value)
+  {
+    for (unsigned apart = 1; apart < kSize; apart *= 2) {
+      const unsigned below = from_below(value, apart);
+      if (rank() >= apart) value += below;
+    }
+    return value;
+  }
 
   // Adds up the numbers of the threads that have the same key, of those that say `mine`. Returns whether this thread has
   // the sums of its key. On a GPU of a whole warp.
@@ -275,6 +291,17 @@ class RowOf<kWarpSize, Row> {
 };
 #endif
 
+// Returns the last thread whose numbers begin at k or before, where those of a thread follow those of the thread before. All threads
+// together.
+template <unsigned kSize>
+LSDCD_FN unsigned owner_of(const Warp<kSize> &warp, std::uint32_t first, std::uint32_t k)
+{
+  unsigned owner = 0;
+  for (unsigned half = kSize / 2; half > 0; half /= 2)
+    if (warp.of(first, owner + half) <= k) owner += half;
+  return owner;
+}
+
 // Calls f(rank, k) for each number k in [first, end) of the thread of this rank. The numbers of a thread follow those of the
 // thread before; on a GPU threads that are side by side get numbers that are.
 template <unsigned kSize, class F>
@@ -284,9 +311,7 @@ LSDCD_FN void for_each_side_by_side(const Warp<kSize> &warp, std::uint32_t first
   const std::uint32_t last = warp.of(end, kSize - 1);
   for (std::uint32_t from = warp.of(first, 0); from < last; from += kSize) {
     const std::uint32_t k = from + warp.rank();
-    unsigned owner = 0;    // the last that begins at k or before
-    for (unsigned half = kSize / 2; half > 0; half /= 2)
-      if (warp.of(first, owner + half) <= k) owner += half;
+    const unsigned owner = owner_of(warp, first, k);
     if (k < last) f(owner, k);
   }
 }

@@ -14,37 +14,69 @@
 
 namespace lsdcd {
 
+// A warp shares the pairs of its rows, each of which has few, and sums what they do; a thread of a CPU has a row.
 template <class Law>
 struct BookPairs {
+  static constexpr unsigned kBlocksAtOnce = 3;
   PairStepView s;
-  EnergyRows *rows;
+  EnergyRows *sums;    // of each warp
   char *is_booked;
 
-  LSDCD_FN void operator()(std::size_t k) const
+  template <class W>
+  LSDCD_FN void operator()(const W &warp, bool mine, std::size_t k) const
   {
-    EnergyRows of_row;
+    const std::size_t begin = warp.of(k, 0);    // the first row
+    EnergyRows sum;
     bool any = false;
-    std::size_t place = std::size_t(s.now.first[k]),
-                old_place = s.old.words ? std::size_t(s.old.first[k]) : 0;
     for (int w = 0; w < s.words; w++) {
-      const std::size_t at = std::size_t(w) * s.list.rows + k;
-      const std::uint32_t now = s.now.words[at], old = s.old.words ? s.old.words[at] : 0;
-      for (std::uint32_t bits = now | old; bits != 0; bits &= bits - 1) {
-        const unsigned bit = lowest_bit(bits);
-        const bool touches = now >> bit & 1, touched = old >> bit & 1;
-        const PairNumbers<Real> none = {nullptr, 0};
-        any |= book(k, s.list.at(s.list.grain[k], kWordBits * w + static_cast<int>(bit)),
-                    touched ? s.old.of(old_place) : none, touches ? s.now.of(place) : none, of_row);
-        place += touches ? s.step : 0;
-        old_place += touched ? s.step : 0;
+      const unsigned count =
+                         mine ? static_cast<unsigned>(count_bits(now_bits(w, k) | old_bits(w, k)))
+                              : 0,
+                     end = warp.sum_up(count), first = end - count,
+                     last = warp.of(end, W::kSize - 1);
+      for (unsigned from = 0; from < last; from += W::kSize) {
+        const unsigned pair = from + warp.rank(), owner = owner_of(warp, first, pair),
+                       n = pair - warp.of(first, owner);
+        if (pair < last) any |= book(begin + owner, w, n, sum);
       }
     }
-    if (!any) return;
-    rows[k].add(of_row);
-    is_booked[k] = 1;
+    if (!warp.any(any)) return;
+    for (int row = 0; row < kEnergyRows; row++) sum.of[row] = warp.sum(sum.of[row]);
+    if (warp.rank() > 0) return;
+    sums[begin / W::kSize].add(sum);
+    is_booked[begin / W::kSize] = 1;
   }
 
  private:
+  // The pairs of a row that touch, and those that did.
+  LSDCD_FN std::uint32_t now_bits(int w, std::size_t k) const
+  {
+    return s.now.words[std::size_t(w) * s.list.rows + k];
+  }
+  LSDCD_FN std::uint32_t old_bits(int w, std::size_t k) const
+  {
+    return s.old.words ? s.old.words[std::size_t(w) * s.list.rows + k] : 0;
+  }
+
+  // Books the n-th of these pairs of a word. Returns whether it is one of this law.
+  LSDCD_FN bool book(std::size_t k, int w, unsigned n, EnergyRows &sum) const
+  {
+    const std::uint32_t touching = now_bits(w, k), touched = old_bits(w, k);
+    std::uint32_t bits = touching | touched;
+    for (; n > 0; n--) bits &= bits - 1;
+    const std::uint32_t bit = bits & ~(bits - 1), below = bit - 1;
+    unsigned place = static_cast<unsigned>(count_bits(touching & below)),
+             old_place = static_cast<unsigned>(count_bits(touched & below));
+    for (int v = 0; v < w; v++) {
+      place += static_cast<unsigned>(count_bits(now_bits(v, k)));
+      old_place += static_cast<unsigned>(count_bits(old_bits(v, k)));
+    }
+    const PairNumbers<Real> none = {nullptr, 0};
+    return book(k, s.list.at(s.list.grain[k], kWordBits * w + static_cast<int>(lowest_bit(bits))),
+                touched & bit ? s.old.of(s.old.first[k] + std::size_t(s.step) * old_place) : none,
+                touching & bit ? s.now.of(s.now.first[k] + std::size_t(s.step) * place) : none,
+                sum);
+  }
   // Returns whether the pair is one of this law.
   LSDCD_FN bool book(std::size_t k, int with, const PairNumbers<Real> &old,
                      const PairNumbers<Real> &now, EnergyRows &sum) const
@@ -67,9 +99,9 @@ PairBookOn<B> pair_book_on(const ContactLaw &law)
   return with_energy_law(law, [](const auto &model) {
     using Law = std::decay_t<decltype(model)>;
     return PairBookOn<B>{LawBytes(model),
-                         [](const PairStepView &s, EnergyRows *rows, char *is_booked, B &b) {
-                           b.for_each(static_cast<std::size_t>(s.list.rows),
-                                      BookPairs<Law>{s, rows, is_booked}, 128u);
+                         [](const PairStepView &s, EnergyRows *sums, char *is_booked, B &b) {
+                           b.for_each_in_warps(static_cast<std::size_t>(s.list.rows),
+                                               BookPairs<Law>{s, sums, is_booked});
                          }};
   });
 }

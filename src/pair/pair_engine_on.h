@@ -137,7 +137,8 @@ class PairEngineOn : public PairEngine {
   void book(EnergyRows &rows) override
   {
     PairStepView s = last_step_;
-    const std::size_t n = static_cast<std::size_t>(s.list.rows);
+    constexpr std::size_t kRows = B::kOnCpu ? 1 : kWarpSize;    // that share a sum
+    const std::size_t n = (static_cast<std::size_t>(s.list.rows) + kRows - 1) / kRows;
     if (books_.empty() || n == 0) return;
     s.laws = booked_bytes_.data();
     s.kind_of = booked_kind_of_.data();

@@ -93,11 +93,7 @@ LSDCD_FN void take_places(const W &warp, bool mine, std::size_t row, unsigned co
                           std::uint32_t *n_pairs, int *first)
 {
   const unsigned room = places_side_by_side(warp, count);
-  unsigned end = warp.rank() % kSide<W> == 0 ? room : 0;
-  for (unsigned apart = 1; apart < W::kSize; apart *= 2) {
-    const unsigned below = warp.from_below(end, apart);
-    if (warp.rank() >= apart) end += below;
-  }
+  const unsigned end = warp.sum_up(warp.rank() % kSide<W> == 0 ? room : 0);
   unsigned begin = 0;
   if (warp.rank() == W::kSize - 1 && end > 0) begin = fetch_add(n_pairs, end);
   begin = warp.of(begin, W::kSize - 1);
@@ -290,8 +286,9 @@ PairLawOn<B> compiled_pair(const Law &law)
 template <class B>
 struct PairBookOn {
   LawBytes law;
-  // Adds what the pairs of a row whose laws are of the kind do to rows[row], and marks the row.
-  void (*run)(const PairStepView &, EnergyRows *rows, char *is_booked, B &);
+  // Adds what the pairs whose laws are of the kind do to sums[k], of so many rows each as threads share their work, and marks those
+  // that have any.
+  void (*run)(const PairStepView &, EnergyRows *sums, char *is_booked, B &);
 };
 template <class B>
 PairBookOn<B> pair_book_on(const ContactLaw &law);
