@@ -100,14 +100,14 @@ def answers(folder, last, others):
 
 
 def times(folder):
-    """Rows of the second table: of each log, its loop times together."""
+    """Rows of the second table: of each log, its loop times together, and the mean of its atoms."""
     rows = []
     for path in sorted(folder.glob("*.log")):
         loops = re.findall(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps with (\d+) atoms", path.read_text(errors="replace"), re.M)
         seconds, steps = sum(float(x[0]) for x in loops), sum(int(x[2]) for x in loops)
         if steps:
-            work = sum(int(x[2]) * int(x[3]) for x in loops)
-            rows.append([path.stem, str(steps), f"{seconds:.1f}", f"{1000 * seconds / steps:.4f}", f"{work / seconds / 1e6:.0f}"])
+            atoms = read_log(path).get("Atoms", [int(loops[0][3])])
+            rows.append([path.stem, str(steps), f"{seconds:.1f}", f"{1000 * seconds / steps:.4f}", f"{np.mean(atoms) * steps / seconds / 1e6:.0f}"])
     return rows
 
 
