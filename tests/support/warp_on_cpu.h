@@ -220,6 +220,13 @@ T atomicAdd(T *at, N n)
 {
   return __atomic_fetch_add(at, static_cast<T>(n), __ATOMIC_RELAXED);
 }
+inline double atomicAdd(double *at, double more)
+{
+  double seen = *at, sum;
+  do sum = seen + more;
+  while (!__atomic_compare_exchange(at, &seen, &sum, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED));
+  return seen;
+}
 template <class T>
 T atomicMax(T *at, T value)
 {

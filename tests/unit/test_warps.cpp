@@ -1,18 +1,23 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What warps of a GPU do for meshes whose nodes move, by threads of a CPU: the bits of a CPU.
+// What warps of a GPU do for meshes whose nodes move, and for pairs of grains, by threads of a CPU: what a CPU does.
 #include "support/warp_on_cpu.h"
 
 #include "backend/backend_cpu.h"
 #include "engine/nodes/node_list.h"
+#include "pair/book_on.h"
 #include "support/meshes.h"
 #include "support/moved_records.h"
 #include "support/random.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <map>
+#include <utility>
+#include <vector>
 
 namespace lsdcd::test_warps {
 namespace {
@@ -151,6 +156,129 @@ TEST(warps, list_what_a_thread_lists)
   expect_lists(waves(), 0.5, true);
   expect_lists(weld(cone_mesh(300, 6, 4), -1), 0.5, true);
   expect_lists(weld(box_mesh({0, 0, 0}, {2, 2, 2}), -1), 0.5, false);
+}
+
+// Spheres of a cloud, of which the list has all that follow one in its row, in up to three words. Some touch, of which most did a step
+// ago; some have parted.
+struct Cloud {
+  static constexpr int kGrains = 75, kWords = 3, kWidth = 3 + kKeptForces;
+
+  Cloud()
+  {
+    Random random(11);
+    const auto fill = [&](std::vector<Real> &all, Real most) {
+      for (Real &one : all) one = uniform(random, -most, most);
+    };
+    fill(x, 1.3);
+    fill(v, 1);
+    fill(omega, 1);
+    law.k_normal = 1000;
+    law.damping = DampingModel::velocity;
+    law.eta = 1;
+    law.tangential = TangentialModel::linear_history;
+    law.k_tangent = 300;
+    law.xgammat = 1;
+    law.mu = 0.4;
+    for (int i = 0; i < kGrains; i++) radius.push_back(uniform(random, 0.3, 0.5));
+    for (int i = 0; i < kGrains; i++) {
+      grain.push_back(i);
+      length.push_back(kGrains - 1 - i);
+      first.push_back(n);
+      old_first.push_back(n_old);
+      for (int place = 0; place < kGrains; place++) {
+        const int j = i + 1 + place;
+        neighbor.push_back(j);
+        if (j >= kGrains) continue;
+        const std::size_t word = std::size_t(place / kWordBits) * kGrains + std::size_t(i);
+        const std::uint32_t bit = std::uint32_t(1) << place % kWordBits;
+        const Real gap = distance(i, j) - radius[i] - radius[j];
+        const bool is_now = gap < 0, was = gap < 0.05 && uniform(random, 0, 1) < 0.8;
+        if (is_now) words[word] |= bit;
+        if (was) old_words[word] |= bit;
+        n += is_now;
+        n_old += was;
+      }
+    }
+    numbers.resize(std::size_t(n) * kWidth);
+    old_numbers.resize(std::size_t(n_old) * kWidth);
+    book(CpuBackend(), {old_words.data(), old_first.data(), old_numbers.data(), std::size_t(n_old)},
+         {});
+  }
+  Real distance(int i, int j) const
+  {
+    return norm(
+        Vec3{x[3 * i] - x[3 * j], x[3 * i + 1] - x[3 * j + 1], x[3 * i + 2] - x[3 * j + 2]});
+  }
+
+  // Books all pairs; returns the sums of all that share one.
+  template <class B>
+  std::vector<EnergyRows> book(B &&b)
+  {
+    return book(std::forward<B>(b), {words.data(), first.data(), numbers.data(), std::size_t(n)},
+                {old_words.data(), old_first.data(), old_numbers.data(), std::size_t(n_old)});
+  }
+  template <class B>
+  std::vector<EnergyRows> book(B &&b, const TouchingPairs &now, const TouchingPairs &old)
+  {
+    PairStepView s;
+    s.x = x.data();
+    s.v = v.data();
+    s.omega = omega.data();
+    s.radius = radius.data();
+    s.mass = mass.data();
+    s.type = type.data();
+    s.n_own = s.n_all = kGrains;
+    s.list = {
+        kGrains, grain.data(), length.data(), neighbor.data(), kGrains, 1, kGrains, 0x1fffffff, 30};
+    s.dt = 1e-3;
+    s.update = true;
+    s.words = kWords;
+    s.now = now;
+    s.old = old;
+    s.width = kWidth;
+    s.law_of = s.kind_of = zeros.data();
+    s.n_types = 2;
+    const std::size_t share = std::decay_t<B>::kOnCpu ? 1 : kWarpSize;
+    std::vector<EnergyRows> sums((kGrains + share - 1) / share);
+    std::vector<char> is_booked(sums.size());
+    with_energy_law(law, [&](const auto &model) {
+      const LawBytes bytes(model);
+      s.laws = &bytes;
+      b.for_each_in_warps(
+          kGrains, BookPairs<std::decay_t<decltype(model)>>{s, sums.data(), is_booked.data()});
+    });
+    for (std::size_t k = 0; k < sums.size(); k++)
+      EXPECT_TRUE(is_booked[k] || sums[k][EnergyRow::held] == 0);
+    return sums;
+  }
+
+  ContactLaw law = granular_law(NormalModel::hooke);
+  std::vector<Real> x = std::vector<Real>(3 * kGrains), v = x, omega = x, radius,
+                    mass = std::vector<Real>(kGrains, 1), numbers, old_numbers;
+  std::vector<int> grain, length, neighbor, first, old_first, type = std::vector<int>(kGrains, 1),
+                                                              zeros = std::vector<int>(4);
+  std::vector<std::uint32_t> words = std::vector<std::uint32_t>(kWords * kGrains),
+                             old_words = words;
+  int n = 0, n_old = 0;
+};
+
+TEST(warps, share_the_pairs_that_they_book)
+{
+  Cloud alone, shared;
+  const std::vector<EnergyRows> rows = alone.book(CpuBackend()), sums = shared.book(WarpBackend());
+  ASSERT_GT(alone.n, 200);
+  ASSERT_EQ(sums.size(), 3u);
+  EXPECT_EQ(alone.numbers, shared.numbers);    // the forces that each pair keeps
+  for (int row = 0; row < kEnergyRows; row++) {
+    Real of_rows = 0, of_sums = 0, size = 0;
+    for (const EnergyRows &one : rows) {
+      of_rows += one.of[row];
+      size += std::abs(one.of[row]);
+    }
+    for (const EnergyRows &one : sums) of_sums += one.of[row];
+    // Sums of less than 3000 numbers in another order.
+    EXPECT_NEAR(of_sums, of_rows, 3000 * 1.2e-16 * size) << "row " << row;
+  }
 }
 
 }    // namespace
