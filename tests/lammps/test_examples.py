@@ -78,3 +78,17 @@ print           "weight $(v_weight:%.17g)"
     at_most("momentum that neither gravity nor the wall has given, in parts of that of the wall", abs((after - before) / (steps * step) - given) / abs(mean), 1e-10)
     fact("grains leave the silo, and are counted twice", all(row[4] < 2000 and 0 < row[5] <= 2000 - row[4] for row in silo[-1:]), silo)
     fact("the drum carries grains to +x, and they resist", drum[-1][5] < drum[0][5] and drum[-1][8] > 0, drum)
+
+
+def test_benchmark_logs(folder):
+    """table.py reads rows of runs that follow one another, of which the last one has lost its ball and is cut off, and a log without any."""
+    sys.path.insert(0, str(EXAMPLES / "benchmark"))
+    import table
+    titles = "   Step           v_t          KinEng          v_z\n"
+    (folder / "impact.log").write_text("1 atom\n" + titles + "      0   0             1.25           0.5\n   1000   0.12345678   -1.5e-3        0.25\nLoop time of 1\n" + titles +
+                                       "   1000   0.12345678   -1.5e-3        0.25\n   2000   0.24691356   12345678901   -nan\n   3000   0.37")
+    (folder / "none.log").write_text("ERROR: Cannot open file bed.data\n")
+    read = table.read_log(folder / "impact.log")
+    fact("its rows", [read[name].tolist() for name in ("Step", "t", "KinEng")] ==
+         [[0, 1000, 2000], [0, 0.12345678, 0.24691356], [1.25, -1.5e-3, 12345678901]] and read["z"].tolist()[:2] == [0.5, 0.25] and read["z"][2] != read["z"][2], read)
+    fact("none", len(table.read_log(folder / "none.log")["t"]) == 0)
