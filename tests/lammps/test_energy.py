@@ -431,8 +431,10 @@ def test_each_contact(folder):
         "\ndump_modify ends format float %.17g\nrun 1000\nrun 1000"
     for ranks in (1, 2):
         rows = lmp.read_thermo(lmp.run_well(script.format(law=CASK_LAW, dt="5e-4", run=run, columns=" ".join([*COLUMNS, *sums])), folder, ranks))
-        for row in rows:
+        for before, row in zip([None, *rows], rows):
             b = dict(zip(("step", "ke", "spin", *NAMES, *sums), row))
+            if before and before[0] == row[0]:    # the second run begins, where those that have just ended have no row
+                continue
             size = sum(abs(b[f"{c} power"]) for c in CAUSES) + 1e-6
             at_most(f"{ranks}, step {b['step']}: power", max(abs(b[f"{c} power"] - b[s]) for c, s in zip(CAUSES, sums)) / size, 1e-12)
         ended, n = [0.0] * 5, 0
