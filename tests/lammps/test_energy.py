@@ -448,6 +448,33 @@ def test_each_contact(folder):
         at_most(f"{ranks}: energy", max(abs(b[c] - life) for c, life in zip(CAUSES, lives)) / sum(b[c] for c in CAUSES), 1e-12)
 
 
+NO_TIME = lmp.head("-2 2 -2 2 -2 2") + """\
+create_atoms    1 single 0.1 0.2 0.48
+set             group all diameter 1 density 1
+velocity        all set 1 0 0
+""" + lmp.pairs() + """\
+fix             move all nve/sphere
+fix             wall all wall/lsdcd hooke/history 1e4 4e3 30 NULL 0.5 1 mesh floor.stl energy each_contact
+compute         row all reduce sum f_wall[10] f_wall[11] f_wall[15] f_wall[16]{inputs}
+thermo          1
+thermo_style    custom step c_row[1] c_row[2] c_row[3] c_row[4]
+thermo_modify   format float %.17g
+timestep        1e-3
+run             10
+timestep        0
+run             2
+"""
+
+
+def test_no_time(folder):
+    """A contact has no power in a step of no time, and loses no energy."""
+    stl.write(folder / "floor.stl", stl.square(1))
+    rows = lmp.read_thermo(lmp.run_well(NO_TIME.format(inputs=" inputs local" * (lmp.version() > 20220101)), folder))
+    before, *after = rows
+    fact("it slides, and is damped", before[0] == 10 and min(map(abs, before[1:])) > 0, before)
+    fact("it has no power, and loses nothing more", [row[1:] for row in after] == [[0, 0, *before[3:]]] * 2, rows)
+
+
 # ---- walls that turn, nodes that move, wear ----------------------------------------------
 
 PULL = "fix move all nve/sphere\nfix g all gravity 100 vector 0 0 -1"

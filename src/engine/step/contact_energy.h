@@ -317,7 +317,7 @@ struct EnergyBook {
     for (int cause = 0; cause < kLossCauses; cause++) {
       const int row = static_cast<int>(EnergyRow::damping) + cause;
       const Real lost = rows.of[row] - before.of[row];
-      to.power[cause] += lost / dt;
+      if (dt > 0) to.power[cause] += lost / dt;
       to.energy[cause] += lost;
     }
   }
