@@ -40,5 +40,6 @@ bool RerunWatch::sees_snapshot(const Update &update)
   if (update.whichflag != kDynamics || update.setupflag == 0) return false;
   const bool twice = inits > 1;
   inits = 0;
+  ended_first = ended_last = -1;    // a rerun may have the steps of the run before it
   return twice || update.ntimestep != update.firststep;
 }

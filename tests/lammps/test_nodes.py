@@ -228,6 +228,9 @@ def test_renumbered(folder):
     for reset in ("reset_atom_ids", "reset_atom_ids sort yes"):
         at_most(f"nodes that have other IDs after {reset} in a run, before write_data",
                 abs(force(parts.format(f'"{reset}"', '"write_data one.data nocoeff"', '"write_data two.data nocoeff"'), 0.244) + 20), 1e-9)
+    # A rerun of the steps of the run before it, whose nodes come much closer from snapshot to snapshot.
+    dumped = keep + "fix go nodes move variable NULL NULL NULL v_vx NULL NULL\nvariable vx atom -250*x\ndump d all custom 2 all.txt id type x y z vx vy vz\n"
+    lmp.run_well(head + "reset_timestep 0\n" + dumped + "run 4\nrerun all.txt first 0 last 4 dump x y z vx vy vz\n", folder)
     # Without a setup LAMMPS says nothing of the commands before it.
     lmp.run_well(head + "delete_atoms group grains\nrun 1 pre no\n" + PRESS.format(z=0.24), folder)
     at_most("and after a run without setup", abs(lmp.read_rows(folder / "out.txt")[0][0] + 20), 1e-9)
