@@ -35,6 +35,10 @@ using namespace FixConst;
 // The first stable LAMMPS with fix heat/flow and what it integrates.
 #define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
 
+// LAMMPS 29Sep2021 does not tell fixes that the command timestep has changed it, and a run may have no setup. Later ones do; in
+// them a fix that acts as steps begin has Kokkos copy all atoms in each step, or not fuse its integration.
+static constexpr bool kHostTellsTimestep = LSDCD_HOST_VERSION >= 20220601;
+
 using lsdcd::Insertion;
 using lsdcd::number_text;
 using lsdcd::PackedSphere;
@@ -221,7 +225,8 @@ lsdcd::Box FixInsertLsdcd::zone() const
 
 int FixInsertLsdcd::setmask()
 {
-  return PRE_EXCHANGE | POST_RUN | INITIAL_INTEGRATE | INITIAL_INTEGRATE_RESPA;
+  return PRE_EXCHANGE | POST_RUN |
+         (kHostTellsTimestep ? 0 : INITIAL_INTEGRATE | INITIAL_INTEGRATE_RESPA);
 }
 
 void FixInsertLsdcd::init()
@@ -275,7 +280,7 @@ void FixInsertLsdcd::reset_dt()
   begin_schedule(update->ntimestep);
 }
 
-// LAMMPS 29Sep2021 does not tell fixes that the command timestep has changed it, and a run may have no setup.
+// Called where the host does not tell the timestep (kHostTellsTimestep).
 void FixInsertLsdcd::initial_integrate(int /*vflag*/)
 {
   if (update->dt != schedule_dt) begin_schedule(update->ntimestep - 1);
