@@ -77,10 +77,8 @@ class LawFiller {
     return made;
   }
 
-  bool reads(const Override &o) const
-  {
-    return read_.count(&o) > 0;
-  }    // of the pair; after make()
+  // After make(): does a sub-model take it? It is one of the pair.
+  bool reads(const Override &o) const { return read_.count(&o) > 0; }
 
   [[noreturn]] void refuse_unread(const Override &o) const
   {
