@@ -87,12 +87,13 @@ TEST(effects, that_are_off_take_no_memory_of_the_engine)
                recorded = s.contacts || s.bodies || booked || s.impact_speed > 0;
     const std::size_t per_slot = history * (sizeof(Spring) + s.law().n_extra() * sizeof(Real)) +
                                  recorded * sizeof(StepContact);
-    const std::size_t expected = least + slots * per_slot + history * 2 * kSpheres * sizeof(int) +
-                                 s.law().has_heat() * grown(kSpheres) * sizeof(Real) +
-                                 booked * grown(kSpheres) * (sizeof(EnergyRows) + 1) +
-                                 recorded * grown(kSpheres) * sizeof(int) +
-                                 s.records_energy() * grown(slots) * sizeof(EnergyRecord) +
-                                 s.law().keeps_losses * grown(slots / 2) * sizeof(EndedContact);
+    const std::size_t expected =
+        least + slots * per_slot + history * 2 * kSpheres * sizeof(int) +
+        s.law().has_heat() * grown(kSpheres) * sizeof(Real) +
+        booked * grown(kSpheres) * (sizeof(EnergyRows) + 1) +
+        recorded * grown(kSpheres) * sizeof(int) +
+        (s.energy_places || s.impact_speed > 0) * grown(slots) * sizeof(EnergyRecord) +
+        s.law().keeps_losses * grown(slots / 2) * sizeof(EndedContact);
     const std::size_t records =    // grown by doubling
         recorded ? 1024 * (sizeof(StepContact) + s.law().keeps_losses * sizeof(KeptLosses)) : 0;
     EXPECT_GE(bytes, expected) << c.name;

@@ -78,10 +78,12 @@ class ResultsOn : public StepResults {
   EnergyRecordList begin_records(std::size_t most, std::size_t most_ended,
                                  const EngineSettings &settings)
   {
-    records_.reserve(most);
-    n_records_.reserve(1);
-    put_one(*b_, n_records_.data(), 0);
-    has_records_ = true;
+    has_records_ = settings.energy_places || settings.impact_speed > 0;
+    if (has_records_) {
+      records_.reserve(most);
+      n_records_.reserve(1);
+      put_one(*b_, n_records_.data(), 0);
+    }
     if (traits_.losses) {
       ended_there_.reserve(most_ended);
       n_ended_.reserve(1);

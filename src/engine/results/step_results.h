@@ -153,7 +153,7 @@ class StepResults {
   virtual WallTotals mesh_totals(int mesh) = 0;
   // Returns the rows of one mesh, where the law keeps_forces. A setup has `held` and `seen` alone.
   virtual EnergyRows energy(int mesh) = 0;
-  // Returns what EngineSettings::records_energy() asks for, of an engine on a CPU.
+  // Returns what energy_places and impact_speed of EngineSettings ask for, of an engine on a CPU.
   virtual EnergyRecords energy_records() const = 0;
   // Returns the spheres with a contact, after a step with per_sphere.
   const std::vector<TouchingSphere> &touching() const { return touching_; }

@@ -72,7 +72,7 @@ struct EnergyBook;
 
 // Where kernels put what becomes of energy, in any order.
 struct EnergyRecordList {
-  EnergyRecord *at;
+  EnergyRecord *at;    // null: none are wanted
   int *n;
   Real impact_speed;     // impacts that are faster are recorded; 0: none are
   Real velocity_unit;    // see EngineSettings
@@ -82,7 +82,7 @@ struct EnergyRecordList {
 
   LSDCD_FN void put(const EnergyRecord &record) const
   {
-    if (record.dissipated != 0 || record.impact > 0) at[fetch_add(n, 1)] = record;
+    if (at && (record.dissipated != 0 || record.impact > 0)) at[fetch_add(n, 1)] = record;
   }
   LSDCD_FN void put(const EndedContact &contact) const { ended[fetch_add(n_ended, 1)] = contact; }
 };
