@@ -5,6 +5,7 @@
 
 #include "lammps/fix_massflow_lsdcd.h"
 
+#include "base/number_words.h"
 #include "lammps/mpi_host.h"
 #include "lammps/restart_data.h"
 
@@ -41,7 +42,12 @@ void FixMassflowLsdcd::open_rows()
 {
   if (settings.file.empty() || rows) return;
   rows = std::make_unique<lsdcd::PassFile>(settings.file);
-  if (comm->me == 0) run_core_here([&] { rows->open(rows_before); });
+  if (comm->me != 0) return;
+  run_core_here([&] { rows->open(rows_before); });
+  if (rows->rows() < rows_before)
+    warn(settings.file + " has " + std::to_string(rows->rows()) + " of the " +
+         lsdcd::counted(rows_before, "row") +
+         " that it had when the restart file was written: rows of this run follow these");
 }
 
 void FixMassflowLsdcd::keep_row(lsdcd::Passage row, lsdcd::Passes passes)

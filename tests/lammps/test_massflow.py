@@ -201,6 +201,10 @@ def test_rows(folder):
     fact("a restart keeps the rows of steps that LAMMPS counts anew since",
          [[row[0] - 49 * (row[0] > 44), *row[2:]] for row in expected] == [row[:1] + row[2:] for row in rows_of(folder / "rows.txt")],
          str([row[0] for row in rows_of(folder / "rows.txt")]))
+    (folder / "rows.txt").unlink()
+    said = lmp.run_well(SETTINGS + "read_restart mid.restart\n" + forces("file rows.txt") + "run 116\n", folder)
+    before = sum(row[0] <= 44 for row in expected)
+    fact("a restart tells of rows that the file has lost", before > 0 and f"rows.txt has 0 of the {before} rows" in " ".join(said.split()))
     lmp.run_well(begin() + wide + forces("file rows.txt") + "run 40\n", folder)
     fact("without a restart the file begins anew", rows_of(folder / "rows.txt") == [row for row in expected if row[0] <= 40])
     # Down, up through the plate, and down again; of several only the first pass counts.
