@@ -444,7 +444,7 @@ class PairEngineOn : public PairEngine {
   Array<Real> sums_, more_;
   std::size_t sums_n_ = 0;
 
-  // Of books of energy: the laws of each kind, all laws, the last step, what the pairs of each of its rows do.
+  // Of books of energy: the laws of each kind, all laws, the last step, what the pairs of rows that share a sum do.
   std::vector<PairBookOn<B>> books_;
   Array<LawBytes> booked_bytes_;
   Array<int> booked_kind_of_;
