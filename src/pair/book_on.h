@@ -29,9 +29,7 @@ struct BookPairs {
     EnergyRows sum;
     bool any = false;
     for (int w = 0; w < s.words; w++) {
-      const unsigned count =
-                         mine ? static_cast<unsigned>(count_bits(now_bits(w, k) | old_bits(w, k)))
-                              : 0,
+      const unsigned count = mine ? static_cast<unsigned>(count_bits(either(w, k))) : 0,
                      end = warp.sum_up(count), first = end - count,
                      last = warp.of(end, W::kSize - 1);
       for (unsigned from = 0; from < last; from += W::kSize) {
@@ -48,34 +46,35 @@ struct BookPairs {
   }
 
  private:
-  // The pairs of a row that touch, and those that did.
-  LSDCD_FN std::uint32_t now_bits(int w, std::size_t k) const
+  // Returns a bit for each pair of a word of a row that touches, now or a step ago.
+  LSDCD_FN std::uint32_t word_of(const TouchingPairs &pairs, int w, std::size_t k) const
   {
-    return s.now.words[std::size_t(w) * s.list.rows + k];
+    return pairs.words ? pairs.words[std::size_t(w) * s.list.rows + k] : 0;
   }
-  LSDCD_FN std::uint32_t old_bits(int w, std::size_t k) const
+  LSDCD_FN std::uint32_t either(int w, std::size_t k) const
   {
-    return s.old.words ? s.old.words[std::size_t(w) * s.list.rows + k] : 0;
+    return word_of(s.now, w, k) | word_of(s.old, w, k);
+  }
+  // Returns what the pair of this bit keeps; null where it does not touch.
+  LSDCD_FN PairNumbers<Real> numbers_of(const TouchingPairs &pairs, int w, std::size_t k,
+                                        std::uint32_t bit) const
+  {
+    const std::uint32_t word = word_of(pairs, w, k);
+    if (!(word & bit)) return {nullptr, 0};
+    int before = count_bits(word & (bit - 1));
+    for (int v = 0; v < w; v++) before += count_bits(word_of(pairs, v, k));
+    return pairs.of(pairs.first[k] + std::size_t(s.step) * static_cast<std::size_t>(before));
   }
 
-  // Books the n-th of these pairs of a word. Returns whether it is one of this law.
+  // Books the n-th pair of a word that touches or did. Returns whether it is one of this law.
   LSDCD_FN bool book(std::size_t k, int w, unsigned n, EnergyRows &sum) const
   {
-    const std::uint32_t touching = now_bits(w, k), touched = old_bits(w, k);
-    std::uint32_t bits = touching | touched;
+    std::uint32_t bits = either(w, k);
     for (; n > 0; n--) bits &= bits - 1;
-    const std::uint32_t bit = bits & ~(bits - 1), below = bit - 1;
-    unsigned place = static_cast<unsigned>(count_bits(touching & below)),
-             old_place = static_cast<unsigned>(count_bits(touched & below));
-    for (int v = 0; v < w; v++) {
-      place += static_cast<unsigned>(count_bits(now_bits(v, k)));
-      old_place += static_cast<unsigned>(count_bits(old_bits(v, k)));
-    }
-    const PairNumbers<Real> none = {nullptr, 0};
-    return book(k, s.list.at(s.list.grain[k], kWordBits * w + static_cast<int>(lowest_bit(bits))),
-                touched & bit ? s.old.of(s.old.first[k] + std::size_t(s.step) * old_place) : none,
-                touching & bit ? s.now.of(s.now.first[k] + std::size_t(s.step) * place) : none,
-                sum);
+    const unsigned place = lowest_bit(bits);
+    const std::uint32_t bit = std::uint32_t(1) << place;
+    return book(k, s.list.at(s.list.grain[k], kWordBits * w + static_cast<int>(place)),
+                numbers_of(s.old, w, k, bit), numbers_of(s.now, w, k, bit), sum);
   }
   // Returns whether the pair is one of this law.
   LSDCD_FN bool book(std::size_t k, int with, const PairNumbers<Real> &old,
