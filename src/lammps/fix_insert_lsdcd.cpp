@@ -32,9 +32,6 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-// The first stable LAMMPS with fix heat/flow and what it integrates.
-#define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
-
 // LAMMPS 29Sep2021 does not tell fixes that the command timestep has changed it, and a run may have no setup. Later ones do; in
 // them a fix that acts as steps begin has Kokkos copy all atoms in each step, or not fuse its integration.
 static constexpr bool kHostTellsTimestep = LSDCD_HOST_VERSION >= 20220601;

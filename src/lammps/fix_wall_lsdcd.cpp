@@ -56,9 +56,6 @@ class Respa {
 }    // namespace LAMMPS_NS
 #endif
 
-// The first stable LAMMPS with fix heat/flow and what it integrates.
-#define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
-
 FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallBackend &place) :
     Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "wall/lsdcd")
 {

@@ -7,6 +7,9 @@
 
 #include <string>
 
+// Is it the first stable LAMMPS with fix heat/flow and what it integrates, or a later one?
+#define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
+
 namespace LAMMPS_NS {
 class Atom;
 class Neighbor;

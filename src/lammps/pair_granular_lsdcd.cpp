@@ -6,6 +6,7 @@
 #include "base/input_words.h"
 #include "input/pair_words.h"
 #include "lammps/fix_springs_lsdcd.h"
+#include "lammps/host_atoms.h"
 #include "lammps/host_box.h"
 #include "lammps/host_fixes.h"
 #include "lammps/host_pairs.h"
@@ -33,9 +34,6 @@
 #include <sstream>
 
 using namespace LAMMPS_NS;
-
-// The first stable LAMMPS with fix heat/flow and what it integrates.
-#define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
 
 namespace {
 
