@@ -4,6 +4,7 @@
 // Memory for what pairs of a step keep, of an engine in the memory of a backend.
 #include "backend/backend_cpu.h"
 #include "pair/pair_engine_on.h"
+#include "support/grain_rows.h"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +19,9 @@ constexpr int kGrains = 3000, kListed = 2;
 constexpr Real kDt = 1e-3, kStiffness = 1000, kShear = 300, kSpeed = 0.1;
 
 // A row of spheres with a diameter of 1, of which the list has the two behind each. Neighbours slide along each other at 2 kSpeed.
-struct Row {
-  explicit Row(std::size_t most_bytes) : engine(CpuBackend(), most_bytes)
+struct Row : GrainRows {
+  explicit Row(std::size_t most_bytes) :
+      GrainRows(kGrains, kListed), engine(CpuBackend(), most_bytes)
   {
     ContactLaw law = classic_law(NormalModel::hooke, true);
     law.k_normal = kStiffness;
@@ -28,7 +30,7 @@ struct Row {
     engine.set_laws({{law}, {0, 0, 0, 0}, 2, 3});
     for (int i = 0; i < kGrains; i++) {
       v[3 * i + 1] = i % 2 ? kSpeed : -kSpeed;
-      grain[i] = name[i] = i;
+      name[i] = i;
       length[i] = std::min(kListed, kGrains - 1 - i);
       for (int k = 0; k < kListed; k++) neighbor[kListed * i + k] = i + 1 + k;
     }
@@ -36,44 +38,16 @@ struct Row {
     engine.hand_out(list(), {name.data(), false});
   }
 
-  PairRows list() const
-  {
-    PairRows rows;
-    rows.rows = kGrains;
-    rows.grain = grain.data();
-    rows.length = length.data();
-    rows.neighbor = neighbor.data();
-    rows.row = rows.longest = kListed;
-    rows.place = 1;
-    rows.mask = 0x1fffffff;
-    rows.factor_shift = 30;
-    return rows;
-  }
   void step(Real apart)
   {
     for (int i = 0; i < kGrains; i++) x[3 * i] = apart * i;
-    force.assign(force.size(), 0);
     PairInput s;
-    s.x = x.data();
-    s.v = v.data();
-    s.omega = omega.data();
-    s.radius = radius.data();
-    s.mass = mass.data();
-    s.type = type.data();
-    s.force = force.data();
-    s.torque = torque.data();
-    s.n_own = s.n_all = kGrains;
-    s.list = list();
+    give(s);
     s.dt = kDt;
-    s.update = true;
     engine.run(s, nullptr);
   }
 
   PairEngineOn<CpuBackend> engine;
-  std::vector<Real> x = std::vector<Real>(3 * kGrains), v = x, omega = x, force = x, torque = x;
-  std::vector<Real> radius = std::vector<Real>(kGrains, 0.5), mass = std::vector<Real>(kGrains, 1);
-  std::vector<int> type = std::vector<int>(kGrains, 1), grain = type, length = type,
-                   neighbor = std::vector<int>(kListed * kGrains);
   std::vector<std::int32_t> name = std::vector<std::int32_t>(kGrains);
 };
 

@@ -7,6 +7,7 @@
 #include "backend/backend_cpu.h"
 #include "engine/nodes/node_list.h"
 #include "pair/book_on.h"
+#include "support/grain_rows.h"
 #include "support/meshes.h"
 #include "support/moved_records.h"
 #include "support/random.h"
@@ -160,10 +161,10 @@ TEST(warps, list_what_a_thread_lists)
 
 // Spheres of a cloud, of which the list has all that follow one in its row, in up to three words. Some touch, of which most did a step
 // ago; some have parted.
-struct Cloud {
+struct Cloud : GrainRows {
   static constexpr int kGrains = 75, kWords = 3, kWidth = 3 + kKeptForces;
 
-  Cloud()
+  Cloud() : GrainRows(kGrains, kGrains)
   {
     Random random(11);
     const auto fill = [&](std::vector<Real> &all, Real most) {
@@ -179,15 +180,14 @@ struct Cloud {
     law.k_tangent = 300;
     law.xgammat = 1;
     law.mu = 0.4;
-    for (int i = 0; i < kGrains; i++) radius.push_back(uniform(random, 0.3, 0.5));
+    for (Real &one : radius) one = uniform(random, 0.3, 0.5);
     for (int i = 0; i < kGrains; i++) {
-      grain.push_back(i);
-      length.push_back(kGrains - 1 - i);
-      first.push_back(n);
+      length[i] = kGrains - 1 - i;
+      first.push_back(n_now);
       old_first.push_back(n_old);
       for (int place = 0; place < kGrains; place++) {
         const int j = i + 1 + place;
-        neighbor.push_back(j);
+        neighbor[kGrains * i + place] = j;
         if (j >= kGrains) continue;
         const std::size_t word = std::size_t(place / kWordBits) * kGrains + std::size_t(i);
         const std::uint32_t bit = std::uint32_t(1) << place % kWordBits;
@@ -195,11 +195,11 @@ struct Cloud {
         const bool is_now = gap < 0, was = gap < 0.05 && uniform(random, 0, 1) < 0.8;
         if (is_now) words[word] |= bit;
         if (was) old_words[word] |= bit;
-        n += is_now;
+        n_now += is_now;
         n_old += was;
       }
     }
-    numbers.resize(std::size_t(n) * kWidth);
+    numbers.resize(std::size_t(n_now) * kWidth);
     old_numbers.resize(std::size_t(n_old) * kWidth);
     book(CpuBackend(), {old_words.data(), old_first.data(), old_numbers.data(), std::size_t(n_old)},
          {});
@@ -214,24 +214,16 @@ struct Cloud {
   template <class B>
   std::vector<EnergyRows> book(B &&b)
   {
-    return book(std::forward<B>(b), {words.data(), first.data(), numbers.data(), std::size_t(n)},
+    return book(std::forward<B>(b),
+                {words.data(), first.data(), numbers.data(), std::size_t(n_now)},
                 {old_words.data(), old_first.data(), old_numbers.data(), std::size_t(n_old)});
   }
   template <class B>
   std::vector<EnergyRows> book(B &&b, const TouchingPairs &now, const TouchingPairs &old)
   {
     PairStepView s;
-    s.x = x.data();
-    s.v = v.data();
-    s.omega = omega.data();
-    s.radius = radius.data();
-    s.mass = mass.data();
-    s.type = type.data();
-    s.n_own = s.n_all = kGrains;
-    s.list = {
-        kGrains, grain.data(), length.data(), neighbor.data(), kGrains, 1, kGrains, 0x1fffffff, 30};
+    give(s);
     s.dt = 1e-3;
-    s.update = true;
     s.words = kWords;
     s.now = now;
     s.old = old;
@@ -253,20 +245,18 @@ struct Cloud {
   }
 
   ContactLaw law = granular_law(NormalModel::hooke);
-  std::vector<Real> x = std::vector<Real>(3 * kGrains), v = x, omega = x, radius,
-                    mass = std::vector<Real>(kGrains, 1), numbers, old_numbers;
-  std::vector<int> grain, length, neighbor, first, old_first, type = std::vector<int>(kGrains, 1),
-                                                              zeros = std::vector<int>(4);
+  std::vector<Real> numbers, old_numbers;
+  std::vector<int> first, old_first, zeros = std::vector<int>(4);
   std::vector<std::uint32_t> words = std::vector<std::uint32_t>(kWords * kGrains),
                              old_words = words;
-  int n = 0, n_old = 0;
+  int n_now = 0, n_old = 0;
 };
 
 TEST(warps, share_the_pairs_that_they_book)
 {
   Cloud alone, shared;
   const std::vector<EnergyRows> rows = alone.book(CpuBackend()), sums = shared.book(WarpBackend());
-  ASSERT_GT(alone.n, 200);
+  ASSERT_GT(alone.n_now, 200);
   ASSERT_EQ(sums.size(), 3u);
   EXPECT_EQ(alone.numbers, shared.numbers);    // the forces that each pair keeps
   for (int row = 0; row < kEnergyRows; row++) {
