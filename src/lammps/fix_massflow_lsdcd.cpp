@@ -125,9 +125,9 @@ void FixMassflowLsdcd::check_size(const lsdcd::WeldedMesh &mesh) const
   }
 }
 
-std::vector<lsdcd::ScriptFile> FixMassflowLsdcd::files() const
+std::vector<lsdcd::RunFile> FixMassflowLsdcd::files() const
 {
-  std::vector<lsdcd::ScriptFile> all = {{"mesh", settings.surface.file}};
+  std::vector<lsdcd::RunFile> all = {{"mesh", settings.surface.file}};
   if (!settings.file.empty()) all.push_back({"file", settings.file, 0, true});
   return all;
 }

@@ -10,9 +10,9 @@
 #include "flow/flow_surface.h"
 #include "flow/pass_file.h"
 #include "input/massflow_settings.h"
-#include "input/script_files.h"
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
+#include "wall/spec/run_files.h"
 
 #include <cstdint>
 #include <memory>
@@ -53,7 +53,7 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   void restart(char *) override;
 
   bool deletes() const { return settings.deletes; }
-  std::vector<lsdcd::ScriptFile> files() const;    // that it reads and writes
+  std::vector<lsdcd::RunFile> files() const;    // that it reads and writes
 
  protected:
   enum : unsigned { kCounted = 1, kToDelete = 2 };

@@ -285,9 +285,9 @@ void FixWallLsdcd::warn_of_pairs()
        "this off by neigh_modify exclude group");
 }
 
-std::vector<lsdcd::ScriptFile> FixWallLsdcd::files() const
+std::vector<lsdcd::RunFile> FixWallLsdcd::files() const
 {
-  std::vector<lsdcd::ScriptFile> all = lsdcd::files_of(spec());
+  std::vector<lsdcd::RunFile> all = lsdcd::files_of(spec());
   if (!material_file.empty()) all.push_back({"material", material_file});
   return all;
 }

@@ -7,13 +7,13 @@
 
 #include "fix.h"
 
-#include "input/script_files.h"
 #include "lammps/lammps_host.h"
 #include "lammps/node_atoms.h"
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
 #include "lammps/shape_atoms.h"
 #include "lammps/wall_picture.h"
+#include "wall/spec/run_files.h"
 #include "wall/wall.h"
 
 #include <deque>
@@ -71,7 +71,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   const std::deque<lsdcd::MeshPart> &meshes() const { return wall->meshes(); }
   // What its contacts have done with energy, over all meshes. Collective.
   lsdcd::BookedEnergy booked() { return wall->energy().of_all(); }
-  std::vector<lsdcd::ScriptFile> files() const;    // that it reads and writes
+  std::vector<lsdcd::RunFile> files() const;    // that it reads and writes
 
   // Another fix has deleted n atoms of all processes: there are no new ones because of that.
   void note_deleted(bigint n) { counted_atoms -= n; }

@@ -16,13 +16,12 @@
 #include <vector>
 
 using namespace LAMMPS_NS;
-using lsdcd::ScriptFile;
+using lsdcd::RunFile;
 
 namespace {
 
 // A cache leaves alone what is no cache.
-void check_apart(const ScriptFile &file, const ScriptFile &other, const std::string &of,
-                 bigint step)
+void check_apart(const RunFile &file, const RunFile &other, const std::string &of, bigint step)
 {
   if (!file.written || (file.what == "cache" && !other.written) ||
       !lsdcd::are_one_file(file, other, step))
@@ -33,7 +32,7 @@ void check_apart(const ScriptFile &file, const ScriptFile &other, const std::str
                           (other.written ? " writes" : " reads") + ": name another file");
 }
 
-std::vector<ScriptFile> files_of_fix(const Fix *fix)
+std::vector<RunFile> files_of_fix(const Fix *fix)
 {
   if (const auto *wall = dynamic_cast<const FixWallLsdcd *>(fix)) return wall->files();
   if (const auto *flow = dynamic_cast<const FixMassflowLsdcd *>(fix)) return flow->files();
@@ -59,14 +58,14 @@ bool share_atoms(const Fix &a, const Fix &b, const Atom &atom, MPI_Comm world)
 void LAMMPS_NS::check_files_apart(const Fix &of, Modify &modify, lsdcd::Host &host, bigint step)
 {
   lsdcd::run_collectively(host, host.is_first(), [&] {
-    const std::vector<ScriptFile> mine = files_of_fix(&of);
+    const std::vector<RunFile> mine = files_of_fix(&of);
     for (std::size_t i = 0; i < mine.size(); i++)
       for (std::size_t k = 0; k < mine.size(); k++)
         if (i != k) check_apart(mine[i], mine[k], "this fix", step);
     for (const Fix *fix : lsdcd::host_fixes(modify)) {
       if (fix == &of) continue;
-      for (const ScriptFile &file : mine)
-        for (const ScriptFile &other : files_of_fix(fix))
+      for (const RunFile &file : mine)
+        for (const RunFile &other : files_of_fix(fix))
           check_apart(file, other, "fix " + std::string(fix->id), step);
     }
   });

@@ -4,7 +4,7 @@
 #include "base/input_error.h"
 #include "input/granular_words.h"
 #include "input/motion_words.h"
-#include "input/script_files.h"
+#include "wall/spec/run_files.h"
 #include "input/wall_command.h"
 #include "support/says.h"
 #include "wall/spec/spec_text.h"
@@ -496,7 +496,7 @@ TEST(script_files, are_one_however_the_folder_is_spelled)
 // A run that goes on from step 100 with the mesh of that step does not write it again.
 TEST(script_files, a_series_is_a_file_that_it_will_write)
 {
-  const ScriptFile series = {"mesh_stl", "a_*.stl", 50, true};
+  const RunFile series = {"mesh_stl", "a_*.stl", 50, true};
   EXPECT_TRUE(are_one_file(series, {"mesh", "a_100.stl"}, 0));
   EXPECT_TRUE(are_one_file({"mesh", "a_100.stl"}, series, 99));
   EXPECT_FALSE(are_one_file(series, {"mesh", "a_100.stl"}, 100));

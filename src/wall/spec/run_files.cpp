@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "input/script_files.h"
+#include "wall/spec/run_files.h"
 
 #include <cstddef>
 #include <cstdlib>
@@ -9,9 +9,9 @@
 
 namespace lsdcd {
 
-std::vector<ScriptFile> files_of(const WallSpec &settings)
+std::vector<RunFile> files_of(const WallSpec &settings)
 {
-  std::vector<ScriptFile> files;
+  std::vector<RunFile> files;
   for (const MeshSpec &m : settings.meshes) {
     files.push_back({"mesh", m.file});
     for (const MotionTerm &term : m.motion.terms())
@@ -52,7 +52,7 @@ bool will_be(const std::string &series, int every, const std::string &name, long
 
 }    // namespace
 
-bool are_one_file(const ScriptFile &a, const ScriptFile &b, long long now)
+bool are_one_file(const RunFile &a, const RunFile &b, long long now)
 {
   const std::string one = with_plain_folder(a.name), other = with_plain_folder(b.name);
   return one == other || will_be(one, a.every, other, now) || will_be(other, b.every, one, now);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Files that commands of a script read and write, and where one would replace another.
+// Files that a run reads and writes, and where one would replace another.
 #pragma once
 
 #include "wall/spec/wall_spec.h"
@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-struct ScriptFile {
+struct RunFile {
   std::string what;    // "mesh", or another keyword that names it
   std::string name;    // with '*' for the step if each step has a file
   int every = 0;       // steps between two times that it is written
@@ -19,10 +19,10 @@ struct ScriptFile {
 };
 
 // Returns the files of a wall's meshes, by name; none is opened.
-std::vector<ScriptFile> files_of(const WallSpec &settings);
+std::vector<RunFile> files_of(const WallSpec &settings);
 
 // Would writing one of these in a step after `now` replace the other? Different spellings of a folder
 // are the same. A link is replaced, not the file that it leads to.
-bool are_one_file(const ScriptFile &a, const ScriptFile &b, long long now);
+bool are_one_file(const RunFile &a, const RunFile &b, long long now);
 
 }    // namespace lsdcd
