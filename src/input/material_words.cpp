@@ -191,7 +191,7 @@ void read_material_of_mesh(Tokens &w, std::size_t mesh, const std::string &file,
 
 std::vector<LawOfTypes> read_laws(const WallMaterials &materials,
                                   const std::vector<MaterialPair> &pairs, const std::string &units,
-                                  std::string &report)
+                                  MaterialsRead &read)
 {
   std::vector<LawOfTypes> laws;
   if (!materials.style.empty())
@@ -200,19 +200,19 @@ std::vector<LawOfTypes> read_laws(const WallMaterials &materials,
     laws.emplace_back();
     laws.back().law = made.law;
     laws.back().name = made.name;
-    if (report.find(made.report) == std::string::npos)
-      report += (report.empty() ? "" : "\n") + made.report;
+    if (read.report.find(made.report) == std::string::npos)
+      read.report += (read.report.empty() ? "" : "\n") + made.report;
+    read.files = made.files;    // those of each pair
   }
   return laws;
 }
 
 std::vector<LawOfTypes> read_laws(Host &host, const WallMaterials &materials,
                                   const std::vector<MaterialPair> &pairs, const std::string &units,
-                                  std::string &report)
+                                  MaterialsRead &read)
 {
   std::vector<LawOfTypes> laws;
-  run_collectively(host, host.is_first(),
-                   [&] { laws = read_laws(materials, pairs, units, report); });
+  run_collectively(host, host.is_first(), [&] { laws = read_laws(materials, pairs, units, read); });
   laws.resize(pairs.size());
   static_assert(std::is_trivially_copyable_v<ContactLaw>, "its bytes are sent");
   for (LawOfTypes &of : laws) {

@@ -59,14 +59,19 @@ std::vector<Override> read_overrides(Tokens &w, const std::vector<std::string> &
 // The law of each of these pairs, with its name.
 using LawsOfMaterials = std::function<std::vector<LawOfTypes>(const WallMaterials &,
                                                               const std::vector<MaterialPair> &)>;
-// Reads the files. `report` becomes that of all numbers. `units`: the script's.
+// What has been read of materials.
+struct MaterialsRead {
+  std::string report;                // of all numbers, several lines
+  std::vector<std::string> files;    // where they were found
+};
+// Reads the files. `units`: the script's.
 std::vector<LawOfTypes> read_laws(const WallMaterials &materials,
                                   const std::vector<MaterialPair> &pairs, const std::string &units,
-                                  std::string &report);
-// The same by the first process, which alone reads files and has the report. Throws InputError on all. Collective.
+                                  MaterialsRead &read);
+// The same by the first process, which alone reads files and has `read`. Throws InputError on all. Collective.
 std::vector<LawOfTypes> read_laws(Host &host, const WallMaterials &materials,
                                   const std::vector<MaterialPair> &pairs, const std::string &units,
-                                  std::string &report);
+                                  MaterialsRead &read);
 
 // Gives wall and meshes the laws of their materials. Throws InputError where a mesh has a law of its own, too.
 void add_laws(const WallMaterials &materials, const LawsOfMaterials &laws_of, WallSpec &wall);

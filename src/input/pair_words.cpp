@@ -144,7 +144,7 @@ bool has_pair_materials(const std::vector<std::string> &words)
 }
 
 std::vector<std::string> read_pair_materials(const std::vector<std::string> &words,
-                                             const std::string &units, std::string &report)
+                                             const std::string &units, MaterialsRead &read)
 {
   refuse(words);
   std::vector<std::string> of_wall(words.begin() + 1, words.end());
@@ -160,7 +160,7 @@ std::vector<std::string> read_pair_materials(const std::vector<std::string> &wor
   if (!materials.types.empty()) w.fail("the types are those before 'law': leave out 'types'");
   if (!w.done()) w.fail("'" + w.peek() + "' is not expected");
   const MaterialLaw made = law_of_materials(materials.pair, units, kScriptWords);
-  report = made.report;
+  read = {made.report, made.files};
   std::istringstream text(made.name);
   std::vector<std::string> all = {"law"};
   all.insert(all.end(), std::istream_iterator<std::string>(text), {});

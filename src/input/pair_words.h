@@ -4,6 +4,7 @@
 // The words of a contact law between grains: those of pair_coeff.
 #pragma once
 
+#include "input/material_words.h"
 #include "pair/pair_coeff.h"
 
 #include <string>
@@ -20,9 +21,8 @@ std::string pair_coeff_syntax();
 
 // Do the words name a material file? Then read_pair_materials() is called before.
 bool has_pair_materials(const std::vector<std::string> &words);
-// Returns the words with the numbers of the materials, in LAMMPS's units of this name. `report`: where they come from, several
-// lines. Reads the file. Throws InputError.
+// Returns the words with the numbers of the materials, in LAMMPS's units of this name. Reads the file. Throws InputError.
 std::vector<std::string> read_pair_materials(const std::vector<std::string> &words,
-                                             const std::string &units, std::string &report);
+                                             const std::string &units, MaterialsRead &read);
 
 }    // namespace lsdcd

@@ -97,6 +97,13 @@ const FixWallLsdcd &ComputeCollideLsdcd::wall() const
   return *wall;
 }
 
+std::vector<lsdcd::RunFile> ComputeCollideLsdcd::files() const
+{
+  std::vector<lsdcd::RunFile> all = {{"mesh", settings.mesh.file}};
+  if (!settings.atoms_file.empty()) all.push_back({"atoms", settings.atoms_file});
+  return all;
+}
+
 bool ComputeCollideLsdcd::is_mine(int body) const
 {
   return body % comm->nprocs == comm->me;

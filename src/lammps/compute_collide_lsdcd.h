@@ -12,6 +12,7 @@
 #include "box/periodic_box.h"
 #include "input/collide_settings.h"
 #include "lammps/own_messages.h"
+#include "wall/spec/run_files.h"
 
 #include <cstdint>
 #include <memory>
@@ -35,6 +36,8 @@ class ComputeCollideLsdcd : public Compute, protected OwnMessages {
   void compute_vector() override;
   void compute_array() override;
   double memory_usage() override;
+
+  std::vector<lsdcd::RunFile> files() const;    // that it has read
 
  private:
   // An atom of a body, when the compute was defined.

@@ -142,7 +142,7 @@ void FixMassflowLsdcd::init()
 {
   watch.init(*update);
   lsdcd::MpiHost mpi(world);
-  check_files_apart(*this, *modify, mpi, update->ntimestep);
+  check_files_apart(*this, *lmp, mpi);
   const std::string late = settings.deletes ? late_pair_springs(*this, *modify) : "";
   if (!late.empty()) fatal(late);
   for (const Fix *fix : lsdcd::host_fixes(*modify))

@@ -69,13 +69,13 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   if (atom->ellipsoid_flag) shape_atoms = std::make_unique<ShapeAtoms>(lmp, id);
 
   run_core([&] {
-    std::string report;
+    lsdcd::MaterialsRead read;
     lsdcd::WallCommand command = lsdcd::parse_wall(
         words_of(arg + 3, arg + narg),
         [&](const lsdcd::WallMaterials &materials, const std::vector<lsdcd::MaterialPair> &pairs) {
-          return read_laws(host, materials, pairs, update->unit_style, report);
+          return read_laws(host, materials, pairs, update->unit_style, read);
         });
-    material_file = command.materials.pair.file;
+    material_files = read.files;
     command.wall.shapes = atom->ellipsoid_flag;
     const lsdcd::WallSpec &spec = command.wall;
     picture.spec = command.picture;
@@ -91,7 +91,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
 #endif
     const double now = update->atime + (update->ntimestep - update->atimestep) * update->dt;
     wall = std::make_unique<lsdcd::Wall>(
-        host, spec, lsdcd::WallUnits{force->nktv2p, force->ftm2v}, place, report,
+        host, spec, lsdcd::WallUnits{force->nktv2p, force->ftm2v}, place, read.report,
         lsdcd::StepClock{now, update->ntimestep, update->ntimestep, update->dt}, spheres_in_atom());
     const std::string differs =
         lsdcd::wall_gran_difference(LSDCD_HOST_VERSION, spec.laws.front().name, spec.law());
@@ -288,7 +288,7 @@ void FixWallLsdcd::warn_of_pairs()
 std::vector<lsdcd::RunFile> FixWallLsdcd::files() const
 {
   std::vector<lsdcd::RunFile> all = lsdcd::files_of(spec());
-  if (!material_file.empty()) all.push_back({"material", material_file});
+  for (const std::string &file : material_files) all.push_back({"material", file});
   return all;
 }
 
@@ -318,7 +318,7 @@ void FixWallLsdcd::init()
   for (const int k : wall->inputs_read()) find_variable(spec().inputs[k]);
   wall->begin_run(update->ntimestep, thermo_virial);
   if (callbacks) ask_for_most_room();    // of fixes that are made after it, too
-  check_files_apart(*this, *modify, host, update->ntimestep);
+  check_files_apart(*this, *lmp, host);
   init_nodes();
   if (doubled_warned) return;
   need_on_cpu();

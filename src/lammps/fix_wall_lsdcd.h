@@ -71,7 +71,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   const std::deque<lsdcd::MeshPart> &meshes() const { return wall->meshes(); }
   // What its contacts have done with energy, over all meshes. Collective.
   lsdcd::BookedEnergy booked() { return wall->energy().of_all(); }
-  std::vector<lsdcd::RunFile> files() const;    // that it reads and writes
+  std::vector<lsdcd::RunFile> files() const;    // that it reads and writes; of the first process
 
   // Another fix has deleted n atoms of all processes: there are no new ones because of that.
   void note_deleted(bigint n) { counted_atoms -= n; }
@@ -85,7 +85,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   LammpsHost host{*this};
   std::unique_ptr<ShapeAtoms> shape_atoms;    // null: all atoms are spheres
   std::unique_ptr<lsdcd::Wall> wall;
-  std::string material_file;    // as the script names it; empty: none
+  std::vector<std::string> material_files;    // that the first process has read
 
   RerunWatch watch;
   bool rerun = false;           // this is a snapshot of one

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Which fixes and computes there are. LAMMPS 13Nov2026 has no lists of Modify (nfix, fix, find_fix and those of computes), and LAMMPS
+// Which fixes, computes and regions there are. LAMMPS 13Nov2026 has no lists of Modify (nfix, fix, find_fix and those of computes), and LAMMPS
 // before 14Dec2021 has nothing else.
 #ifndef LSDCD_HOST_FIXES_H
 #define LSDCD_HOST_FIXES_H
 
 #include "compute.h"
+#include "domain.h"
 #include "fix.h"
 #include "modify.h"
 
@@ -53,6 +54,16 @@ inline LAMMPS_NS::Compute *host_compute(LAMMPS_NS::Modify &modify, const std::st
   for (LAMMPS_NS::Compute *compute : host_computes(modify))
     if (id == compute->id) return compute;
   return nullptr;
+}
+
+// Returns all regions in their order.
+inline std::vector<LAMMPS_NS::Region *> host_regions(LAMMPS_NS::Domain &domain)
+{
+#if LSDCD_HOST_VERSION < 20220601
+  return std::vector<LAMMPS_NS::Region *>(domain.regions, domain.regions + domain.nregion);
+#else
+  return domain.get_region_list();
+#endif
 }
 
 }    // namespace lsdcd

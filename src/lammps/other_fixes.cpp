@@ -3,14 +3,20 @@
 
 #include "lammps/other_fixes.h"
 
-#include "base/input_error.h"
+#include "lammps/compute_collide_lsdcd.h"
 #include "lammps/fix_insert_lsdcd.h"
 #include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/host_fixes.h"
+#include "lammps/pair_granular_lsdcd.h"
+#include "lammps/region_mesh_lsdcd.h"
 
 #include "atom.h"
+#include "domain.h"
+#include "force.h"
+#include "lammps.h"
 #include "modify.h"
+#include "update.h"
 
 #include <cstring>
 #include <vector>
@@ -20,17 +26,7 @@ using lsdcd::RunFile;
 
 namespace {
 
-// A cache leaves alone what is no cache.
-void check_apart(const RunFile &file, const RunFile &other, const std::string &of, bigint step)
-{
-  if (!file.written || (file.what == "cache" && !other.written) ||
-      !lsdcd::are_one_file(file, other, step))
-    return;
-  throw lsdcd::InputError("in '" + file.what + "', '" + file.name + "' is " +
-                          (file.name == other.name ? "" : "'" + other.name + "', ") + "the " +
-                          (other.what == "file" ? "" : other.what + " ") + "file that " + of +
-                          (other.written ? " writes" : " reads") + ": name another file");
-}
+const char *const kPairStyle = "granular/lsdcd";
 
 std::vector<RunFile> files_of_fix(const Fix *fix)
 {
@@ -39,6 +35,28 @@ std::vector<RunFile> files_of_fix(const Fix *fix)
   if (const auto *inlet = dynamic_cast<const FixInsertLsdcd *>(fix))
     if (!inlet->mesh_file().empty()) return {{"mesh", inlet->mesh_file()}};
   return {};
+}
+
+// Calls use(files, "compute 3") for each other one of our styles.
+template <class Use>
+void for_files_beside(const Fix &of, LAMMPS &lmp, const Use &use)
+{
+  for (const Fix *fix : lsdcd::host_fixes(*lmp.modify))
+    if (fix != &of) use(files_of_fix(fix), "fix " + std::string(fix->id));
+  for (const Compute *compute : lsdcd::host_computes(*lmp.modify))
+    if (const auto *collide = dynamic_cast<const ComputeCollideLsdcd *>(compute))
+      use(collide->files(), "compute " + std::string(compute->id));
+  for (const Region *region : lsdcd::host_regions(*lmp.domain))
+    if (const auto *mesh = dynamic_cast<const RegionMeshLsdcd *>(region))
+      use({{"mesh", mesh->mesh_file()}}, "region " + std::string(region->id));
+  // A hybrid style may have several; it returns its only one whichever is asked for.
+  const Pair *last = nullptr;
+  for (int k = 1; const Pair *pair = lmp.force->pair_match(kPairStyle, 0, k); k++) {
+    if (pair == last) break;
+    last = pair;
+    if (const auto *granular = dynamic_cast<const PairGranularLsdcd *>(pair))
+      use(granular->files(), std::string("pair_style ") + kPairStyle);
+  }
 }
 
 // Now, or as they may come in a group that has none yet. Collective.
@@ -55,19 +73,16 @@ bool share_atoms(const Fix &a, const Fix &b, const Atom &atom, MPI_Comm world)
 }    // namespace
 
 // The first process looks, as it writes them.
-void LAMMPS_NS::check_files_apart(const Fix &of, Modify &modify, lsdcd::Host &host, bigint step)
+void LAMMPS_NS::check_files_apart(const Fix &of, LAMMPS &lmp, lsdcd::Host &host)
 {
+  const bigint step = lmp.update->ntimestep;
   lsdcd::run_collectively(host, host.is_first(), [&] {
     const std::vector<RunFile> mine = files_of_fix(&of);
-    for (std::size_t i = 0; i < mine.size(); i++)
-      for (std::size_t k = 0; k < mine.size(); k++)
-        if (i != k) check_apart(mine[i], mine[k], "this fix", step);
-    for (const Fix *fix : lsdcd::host_fixes(modify)) {
-      if (fix == &of) continue;
+    check_apart(mine, "this fix", step);
+    for_files_beside(of, lmp, [&](const std::vector<RunFile> &others, const std::string &owner) {
       for (const RunFile &file : mine)
-        for (const RunFile &other : files_of_fix(fix))
-          check_apart(file, other, "fix " + std::string(fix->id), step);
-    }
+        for (const RunFile &other : others) check_apart(file, other, owner, step);
+    });
   });
 }
 

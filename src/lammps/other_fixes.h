@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Things that a fix must not share with another one of the script, and the order of fixes.
+// Things that a fix must not share with others of the script, and the order of fixes.
 #ifndef LMP_OTHER_FIXES_H
 #define LMP_OTHER_FIXES_H
 
@@ -16,9 +16,9 @@ class Host;
 
 namespace LAMMPS_NS {
 
-// A file that is written must be no other that a fix reads or writes: it would be lost without a word.
+// A file that the fix writes must be no other that one of our styles reads or writes: that would be lost without a word.
 // Throws InputError on all processes. Collective.
-void check_files_apart(const class Fix &, class Modify &, lsdcd::Host &, bigint step);
+void check_files_apart(const class Fix &, class LAMMPS &, lsdcd::Host &);
 
 // A text where an earlier fix has a mesh of this one, at the same place and for some of its atoms;
 // empty: none has. The later fix warns. Collective.

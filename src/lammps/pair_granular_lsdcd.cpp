@@ -102,18 +102,27 @@ void PairGranularLsdcd::settings(int narg, char **arg)
 }
 
 std::vector<std::string>
-PairGranularLsdcd::words_of_materials(const std::vector<std::string> &words) const
+PairGranularLsdcd::words_of_materials(const std::vector<std::string> &words)
 {
   lsdcd::MpiHost host(world);
-  std::string text, report;
+  std::string text;
+  lsdcd::MaterialsRead read;
   lsdcd::run_collectively(host, comm->me == 0, [&] {
-    for (const std::string &word : lsdcd::read_pair_materials(words, update->unit_style, report))
+    for (const std::string &word : lsdcd::read_pair_materials(words, update->unit_style, read))
       text += word + " ";
   });
   lsdcd::broadcast_text(host, text);
-  log("\n" + report);
+  log("\n" + read.report);
+  material_files.insert(read.files.begin(), read.files.end());
   std::istringstream in(text);
   return {std::istream_iterator<std::string>(in), {}};
+}
+
+std::vector<lsdcd::RunFile> PairGranularLsdcd::files() const
+{
+  std::vector<lsdcd::RunFile> all;
+  for (const std::string &file : material_files) all.push_back({"material", file});
+  return all;
 }
 
 void PairGranularLsdcd::coeff(int narg, char **arg)

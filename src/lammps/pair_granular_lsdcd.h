@@ -11,8 +11,10 @@
 #include "lammps/own_messages.h"
 #include "pair/pair_coeff.h"
 #include "pair/pair_job.h"
+#include "wall/spec/run_files.h"
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +39,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
 
+  std::vector<lsdcd::RunFile> files() const;    // that it has read, on the first process
   // For compute lsdcd/energy: what pairs of this process have done with it.
   const lsdcd::BookedEnergy &booked() const;
 
@@ -61,7 +64,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   };
 
   void allocate();
-  std::vector<std::string> words_of_materials(const std::vector<std::string> &) const;
+  std::vector<std::string> words_of_materials(const std::vector<std::string> &);
   void find_radii();
   void find_fixes();
   void set_springs();
@@ -74,6 +77,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
 
   double cutoff = -1;
   std::map<std::pair<int, int>, lsdcd::PairCoeff> given;    // i <= j
+  std::set<std::string> material_files;                     // that the first process has read
   std::vector<lsdcd::PairCoeff> coeffs;                     // of each law
   std::vector<lsdcd::PairLaw> laws;                         // the same, compiled
   std::vector<unsigned> flips_of;                           // the same: see ContactLaw::flips()

@@ -7,6 +7,7 @@
 #include "base/number_words.h"
 #include "box/likely_scale.h"
 #include "lammps/host_box.h"
+#include "lammps/host_fixes.h"
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
 
@@ -22,15 +23,6 @@ using lsdcd::Vec3;
 
 #if LSDCD_HOST_VERSION < 20260501
 namespace {
-
-std::vector<Region *> regions_of(Domain &domain)
-{
-#if LSDCD_HOST_VERSION < 20220601
-  return std::vector<Region *>(domain.regions, domain.regions + domain.nregion);
-#else
-  return domain.get_region_list();
-#endif
-}
 
 bool has_part(Domain &domain, const Region &whole, const Region *part)
 {
@@ -110,7 +102,7 @@ void RegionMeshLsdcd::init()
 void RegionMeshLsdcd::refuse_rotating_whole() const
 {
 #if LSDCD_HOST_VERSION < 20260501
-  for (const Region *const whole : regions_of(*domain))
+  for (const Region *const whole : lsdcd::host_regions(*domain))
     if (whole->rotateflag && has_part(*domain, *whole, this))
       fatal("region " + std::string(whole->id) + " of style " + whole->style +
             " has a part that rotates, and this LAMMPS would turn it about an axis that it never "

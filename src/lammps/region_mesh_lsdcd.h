@@ -27,6 +27,8 @@ class RegionMeshLsdcd : public Region, protected OwnMessages {
   int surface_interior(double *, double) override;
   int surface_exterior(double *, double) override;
 
+  const std::string &mesh_file() const { return settings.mesh.file; }
+
  private:
   void read_host_words();
   void refuse_rotating_whole() const;

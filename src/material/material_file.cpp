@@ -44,10 +44,8 @@ class Reader {
   // Each file once, however often it is included.
   void read(const std::string &path, int depth)
   {
-    if (std::find(files_being_read_.begin(), files_being_read_.end(), path) !=
-        files_being_read_.end())
-      return;
-    files_being_read_.push_back(path);
+    if (std::find(into_.files.begin(), into_.files.end(), path) != into_.files.end()) return;
+    into_.files.push_back(path);
     std::ifstream file(path);
     if (!file) throw InputError("cannot read the material file '" + path + "'");
     MaterialSection *section = nullptr;
@@ -157,7 +155,6 @@ class Reader {
   }
 
   MaterialFile &into_;
-  std::vector<std::string> files_being_read_;
   std::string location_;
 };
 

@@ -45,6 +45,7 @@ struct MaterialSection {
 
 struct MaterialFile {
   std::string path;
+  std::vector<std::string> files;    // it and those that are included
   std::vector<MaterialSection> materials, pairs;
 
   // Throws InputError that names the nearest, or all.

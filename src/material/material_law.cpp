@@ -74,6 +74,7 @@ class LawFiller {
     made.law = law_of(made.sub_models);
     made.name = "granular " + text_of(made.sub_models) + (c_.limit_damping ? " limit_damping" : "");
     made.report = report_;
+    made.files = file_.files;
     return made;
   }
 

@@ -46,8 +46,9 @@ struct MaterialLaw {
   std::vector<GivenSubModel>
       sub_models;    // the normal one first; all numbers are there, NaN: derived
   ContactLaw law;
-  std::string name;      // "granular ...": its words, which give the same numbers
-  std::string report;    // several lines: each number with its source
+  std::string name;                  // "granular ...": its words, which give the same numbers
+  std::string report;                // several lines: each number with its source
+  std::vector<std::string> files;    // that have been read
 };
 
 // Numbers are in `units`, LAMMPS's name of them. LAMMPS's walls take one material for both sides, so that for two materials

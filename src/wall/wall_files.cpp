@@ -8,6 +8,7 @@
 #include "output/mesh_fields.h"
 #include "output/mesh_stl.h"
 #include "wall/spec/mesh_name.h"
+#include "wall/spec/run_files.h"
 
 #include <numeric>
 
@@ -41,6 +42,8 @@ void WallFiles::check(int mesh, const char *keyword, const FileEvery &file, std:
 void WallFiles::begin_run(std::int64_t step)
 {
   warned_ = false;
+  run_collectively(host_, host_.is_first(),
+                   [&] { check_apart(files_of(settings_), host_.names().wall, step); });
   for (std::size_t k = 0; k < settings_.meshes.size(); k++) {
     check(static_cast<int>(k), "mesh_fields", settings_.meshes[k].fields, step);
     check(static_cast<int>(k), "impact_spectrum", settings_.meshes[k].spectrum, step);

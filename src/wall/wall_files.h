@@ -36,8 +36,8 @@ class WallFiles {
   // Goes on with the lists of files that an earlier run wrote.
   void continue_lists() { continues_ = true; }
 
-  // Before a run. Throws InputError on all processes where a file cannot be made: told now, not hours
-  // later. Collective.
+  // Before a run. Throws InputError on all processes where a file cannot be made, or would replace one that the wall reads: told
+  // now, not hours later. Collective.
   void begin_run(std::int64_t step);
 
   // Writes what is due in this step, at `time`. `loads`: null in a snapshot, of which there are

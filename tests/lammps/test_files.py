@@ -206,3 +206,47 @@ def test_not_written(folder):
     # Sums of the same numbers in another order.
     at_most("what was not written is in the next average",
             apart([2 * v for v in a], [u + v for u, v in zip(b, c)]), 1e-12)
+
+
+TETRAHEDRON = [[(0.6, 0.2, 1.5), (0.3, 0.2, 1.5), (0.3, 0.6, 1.5)], [(0.3, 0.2, 1.9), (0.3, 0.2, 1.5), (0.6, 0.2, 1.5)],
+               [(0.3, 0.6, 1.5), (0.3, 0.2, 1.5), (0.3, 0.2, 1.9)], [(0.6, 0.2, 1.5), (0.3, 0.6, 1.5), (0.3, 0.2, 1.9)]]
+GLASS = "units si\n{}material glass\n  youngs_modulus 5e7 Pa\n  poissons_ratio 0.25 1\npair glass glass\n  restitution 0.5 1\n  sliding_friction 0.5 1\n"
+# The owner as a message names it, the keyword of the file, the file, and the line that reads it.
+READERS = (
+    ("region r", "mesh", "a.stl", "region r mesh/lsdcd a.stl"),
+    ("compute c", "mesh", "a.stl", "compute c all lsdcd/collide wall mesh a.stl"),
+    ("compute c", "atoms", "a.csv", "compute c all lsdcd/collide wall mesh b.stl atoms a.csv"),
+    ("fix in", "mesh", "a.stl", "fix in all insert/lsdcd mesh a.stl diam one 0.1 dens 1 number 1"),
+    ("fix n", "mesh", "a.stl", "fix n all massflow/lsdcd mesh a.stl"),
+    ("fix w", "mesh", "a.stl", f"fix w all wall/lsdcd {SOFT} mesh a.stl"),
+    ("fix w", "motion table", "a.csv", f"fix w all wall/lsdcd {SOFT} mesh b.stl motion table a.csv"),
+    ("fix w", "material", "a.csv", "fix w all wall/lsdcd granular material a.csv glass mesh b.stl"),
+    ("fix w", "material", "a.csv", "fix w all wall/lsdcd granular material b.lsdcd glass mesh b.stl"),
+    ("pair_style granular/lsdcd", "material", "a.csv", "pair_style granular/lsdcd\npair_coeff * * law material a.csv glass"),
+    ("pair_style granular/lsdcd", "material", "a.csv", "pair_style hybrid/overlay zero 1.0 granular/lsdcd\n"
+     "pair_coeff * * zero\npair_coeff * * granular/lsdcd law material b.lsdcd glass"),
+)
+
+
+def test_inputs_stay(folder):
+    """No output takes the place of a file that one of our styles reads."""
+    begin = lmp.head("-3 3 -3 3 -1 5", modify="map array", units="si") + "".join(
+        f"create_atoms 1 single {x} {y} {z} units box\n" for x, y, z in ((0.3, 0.2, 1.5), (0.6, 0.2, 1.5), (0.3, 0.6, 1.5), (0.3, 0.2, 1.9))) + \
+        "set group all diameter 0.2 density 2.0\npair_style zero 1.0\npair_coeff * *\ntimestep 1e-5\n" + \
+        f"fix wall all wall/lsdcd {SOFT} mesh floor.stl"
+    contents = {"motion table": "0 0 0 0\n1 0 0 0\n", "material": GLASS.format(""), "atoms": "0.3 0.2 1.5\n0.6 0.2 1.5\n0.3 0.6 1.5\n0.3 0.2 1.9\n"}
+    stl.write(folder / "b.stl", TETRAHEDRON)
+    (folder / "b.lsdcd").write_text("units si\ninclude a.csv\n")
+    for owner, what, name, line in READERS:
+        if what == "mesh":
+            stl.write(folder / name, TETRAHEDRON if line.startswith(("region", "compute", "fix w")) else TETRAHEDRON[:1])
+        else:
+            (folder / name).write_text(contents[what])
+        before = (folder / name).read_bytes()
+        fact(f"{owner}, {what}: reads the file", "Loop time" in lmp.run_well(f"{begin}\n{line}\nrun 1\n", folder))
+        stl_or_csv = "mesh_stl" if name.endswith(".stl") else "impact_spectrum"
+        for words in (f" {stl_or_csv} {name} every 1" + (" energy impacts 1e-3" if name.endswith(".csv") else ""),
+                      f"\nfix flow all massflow/lsdcd mesh floor.stl file ./{name}"):
+            lmp.refused(f"{words.split()[0]} as the {what} file of {owner}", f"{begin}{words}\n{line}\nrun 1\n", folder,
+                        f"'{name}'" if words[0] == " " else f"'./{name}' is '{name}'", f"the {what} file that {owner} reads: name another file")
+            fact("and the file stays", (folder / name).read_bytes() == before)

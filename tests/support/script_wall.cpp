@@ -25,13 +25,13 @@ struct ScriptWall::State {
 ScriptWall::ScriptWall(const std::vector<std::string> &words, const std::string &units) :
     in_(std::make_unique<State>())
 {
-  std::string report;
+  MaterialsRead read;
   const auto laws = [&](const WallMaterials &materials, const std::vector<MaterialPair> &pairs) {
-    return read_laws(in_->host, materials, pairs, units, report);
+    return read_laws(in_->host, materials, pairs, units, read);
   };
   in_->host.simulation = wide_box();
   in_->wall = std::make_unique<Wall>(in_->host, parse_wall(words, laws).wall, WallUnits(),
-                                     WallBackend(), report, StepClock{0, 0, 0, 0});
+                                     WallBackend(), read.report, StepClock{0, 0, 0, 0});
   in_->wall->begin_run(0, false);
 }
 

@@ -39,17 +39,17 @@ const char *const kFile = "units si\n"
 struct MaterialWordsTest : ::testing::Test {
   TempDir folder;
   std::string file = folder.write("m.lsdcd", kFile);
-  std::string report;
+  MaterialsRead read;
 
   // FILE stands for the file above. A line without a mesh gets one.
   WallSpec wall(const std::string &line, const std::string &units = "si")
   {
     std::vector<std::string> tokens = words(line);
     std::replace(tokens.begin(), tokens.end(), std::string("FILE"), file);
-    report.clear();
+    read = {};
     return parse_wall(tokens,
                       [&](const WallMaterials &materials, const std::vector<MaterialPair> &pairs) {
-                        return read_laws(materials, pairs, units, report);
+                        return read_laws(materials, pairs, units, read);
                       })
         .wall;
   }
@@ -187,7 +187,7 @@ TEST_F(material_words, of_adhesive_models_have_no_damping_by_default)
 {
   EXPECT_EQ(filled("granular jkr material FILE glass mesh a.stl"),
             "granular jkr 6.9e+10 0 0.23 0.02 damping none tangential mindlin NULL 1 0.092");
-  EXPECT_TRUE(says(report, {"no damping"}));
+  EXPECT_TRUE(says(read.report, {"no damping"}));
 }
 
 TEST_F(material_words, with_a_damping_of_another_kind_need_its_number)
@@ -244,7 +244,7 @@ TEST_F(material_words, with_overrides_take_the_numbers_of_the_script_as_they_are
                    "cgs"),
             "granular hertz/material 5e+07 0.5 0.23 damping coeff_restitution "
             "tangential mindlin NULL 1 0.1");
-  EXPECT_TRUE(says(report, {"youngs_modulus 5e+07, as the input script says"}));
+  EXPECT_TRUE(says(read.report, {"youngs_modulus 5e+07, as the input script says"}));
 }
 
 TEST_F(material_words, with_a_misspelt_property_name_it_and_the_nearest)
@@ -296,8 +296,8 @@ TEST_F(material_words, with_overrides_may_name_whose_number_they_replace)
   const std::vector<std::string> tokens =
       fill("granular jkr material FILE glass on steel with steel surface_energy 0.32 mesh a");
   EXPECT_NEAR(std::stod(tokens[5]), 0.08, 1e-17);    // sqrt(0.02 0.32)
-  EXPECT_TRUE(
-      says(report, {"steel: surface_energy 0.32, as the input script says", "glass: surface_energy "
+  EXPECT_TRUE(says(read.report,
+                   {"steel: surface_energy 0.32, as the input script says", "glass: surface_energy "
                                                                             "0.02 (0.02 J/m2"}));
 }
 
@@ -428,10 +428,11 @@ TEST_F(material_words, of_classic_styles_are_refused_with_what_can_be_said)
 TEST_F(material_words, are_reported_with_unit_source_and_line)
 {
   fill("granular material FILE glass on steel mesh a", "cgs");
-  EXPECT_TRUE(says(
-      report, {"units cgs", "glass: youngs_modulus 6.9e+11 (6.9e+10 Pa, m.lsdcd line 3): book one",
-               "m.lsdcd line 8): book two", "glass: poissons_ratio 0.23 (m.lsdcd line 4)",
-               "glass on steel: restitution 0.9", "no source"}));
+  EXPECT_TRUE(
+      says(read.report,
+           {"units cgs", "glass: youngs_modulus 6.9e+11 (6.9e+10 Pa, m.lsdcd line 3): book one",
+            "m.lsdcd line 8): book two", "glass: poissons_ratio 0.23 (m.lsdcd line 4)",
+            "glass on steel: restitution 0.9", "no source"}));
 }
 
 }    // namespace

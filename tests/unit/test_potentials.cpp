@@ -76,13 +76,13 @@ TEST(potentials, fill_the_styles_that_the_manual_shows)
            {"granular", "jkr", "material", "silica_powder.lsdcd", "silica", "with",
             "sliding_friction", "0.4", "rolling", "sds", "1", "0", "NULL", "mesh", "a"}})
     for (const std::string units : {"si", "cgs", "micro", "nano"}) {
-      std::string report;
+      MaterialsRead read;
       const auto laws = [&](const WallMaterials &materials,
                             const std::vector<MaterialPair> &pairs) {
-        return read_laws(materials, pairs, units, report);
+        return read_laws(materials, pairs, units, read);
       };
       EXPECT_GT(parse_wall(words, laws).wall.law().k_normal, 0);
-      EXPECT_NE(report, "");
+      EXPECT_NE(read.report, "");
     }
 }
 

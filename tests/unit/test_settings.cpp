@@ -4,9 +4,9 @@
 #include "base/input_error.h"
 #include "input/granular_words.h"
 #include "input/motion_words.h"
-#include "wall/spec/run_files.h"
 #include "input/wall_command.h"
 #include "support/says.h"
+#include "wall/spec/run_files.h"
 #include "wall/spec/spec_text.h"
 
 #include <gtest/gtest.h>
@@ -487,14 +487,14 @@ TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
   EXPECT_TRUE(has(error_with("mesh_fields a_*_*.vtp every 5"), "only one is the step"));
 }
 
-TEST(script_files, are_one_however_the_folder_is_spelled)
+TEST(run_files, are_one_however_the_folder_is_spelled)
 {
   EXPECT_TRUE(are_one_file({"mesh", "a.stl"}, {"mesh_stl", "./no/../a.stl", 5, true}, 0));
   EXPECT_FALSE(are_one_file({"mesh", "a.stl"}, {"mesh_stl", "no/a.stl", 5, true}, 0));
 }
 
 // A run that goes on from step 100 with the mesh of that step does not write it again.
-TEST(script_files, a_series_is_a_file_that_it_will_write)
+TEST(run_files, a_series_is_a_file_that_it_will_write)
 {
   const RunFile series = {"mesh_stl", "a_*.stl", 50, true};
   EXPECT_TRUE(are_one_file(series, {"mesh", "a_100.stl"}, 0));

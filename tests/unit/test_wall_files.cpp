@@ -95,6 +95,31 @@ TEST(WallFiles, that_cannot_be_made_are_refused_before_a_run_on_all_processes)
 }
 
 
+TEST(WallFiles, that_would_replace_what_the_wall_reads_or_writes_are_refused_on_all_processes)
+{
+  TempDir dir;
+  Wall mesh, table, list;
+  mesh.settings.meshes.resize(2);
+  mesh.files().file = dir.path("wall.stl");
+  mesh.settings.meshes[1].stl = {dir.path("no/../wall.stl"), 1};
+  MotionTerm term;
+  term.table_file = dir.path("shake.csv");
+  table.files().motion.add(term);
+  table.files().spectrum = {dir.path("shake.csv"), 1};
+  list.files().fields = {dir.path("a_*.vtp"), 1};
+  list.files().file = dir.path("a_series.pvd");
+  on_processes(2, [&](FakeHost &host) {
+    const auto error = [&](const Wall &wall) {
+      return error_of([&] { WallFiles(host, wall.settings, 1).begin_run(0); });
+    };
+    EXPECT_TRUE(says(error(mesh), {"in 'mesh_stl', ", "wall.stl', the mesh file that ",
+                                   " reads: name another file"}));
+    EXPECT_TRUE(says(error(table), {"in 'impact_spectrum', ", "the motion table file that "}));
+    EXPECT_TRUE(
+        says(error(list), {"in 'list of mesh_fields', ", "a_series.pvd' is the mesh file"}));
+  });
+}
+
 TEST(WallFiles, that_are_pipes_are_refused_and_stay)
 {
   const TempDir dir;

@@ -3,6 +3,9 @@
 
 #include "wall/spec/run_files.h"
 
+#include "base/input_error.h"
+#include "output/file_series.h"
+
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
@@ -13,10 +16,12 @@ std::vector<RunFile> files_of(const WallSpec &settings)
 {
   std::vector<RunFile> files;
   for (const MeshSpec &m : settings.meshes) {
-    files.push_back({"mesh", m.file});
+    if (!m.file.empty()) files.push_back({"mesh", m.file});
     for (const MotionTerm &term : m.motion.terms())
       if (!term.table_file.empty()) files.push_back({"motion table", term.table_file});
     if (m.fields.every > 0) files.push_back({"mesh_fields", m.fields.name, m.fields.every, true});
+    if (m.fields.every > 0 && m.fields.name.find('*') != std::string::npos)
+      files.push_back({"list of mesh_fields", FileSeries(m.fields.name).path(), 0, true});
     if (m.spectrum.every > 0)
       files.push_back({"impact_spectrum", m.spectrum.name, m.spectrum.every, true});
     if (m.stl.every > 0) files.push_back({"mesh_stl", m.stl.name, m.stl.every, true});
@@ -56,6 +61,23 @@ bool are_one_file(const RunFile &a, const RunFile &b, long long now)
 {
   const std::string one = with_plain_folder(a.name), other = with_plain_folder(b.name);
   return one == other || will_be(one, a.every, other, now) || will_be(other, b.every, one, now);
+}
+
+void check_apart(const RunFile &file, const RunFile &other, const std::string &owner, long long now)
+{
+  if (!file.written || (file.what == "cache" && !other.written) || !are_one_file(file, other, now))
+    return;
+  throw InputError("in '" + file.what + "', '" + file.name + "' is " +
+                   (file.name == other.name ? "" : "'" + other.name + "', ") + "the " +
+                   (other.what == "file" ? "" : other.what + " ") + "file that " + owner +
+                   (other.written ? " writes" : " reads") + ": name another file");
+}
+
+void check_apart(const std::vector<RunFile> &files, const std::string &owner, long long now)
+{
+  for (std::size_t i = 0; i < files.size(); i++)
+    for (std::size_t k = 0; k < files.size(); k++)
+      if (i != k) check_apart(files[i], files[k], owner, now);
 }
 
 }    // namespace lsdcd
