@@ -7,7 +7,7 @@
 //   kBeyondContact, pull_off  does it act beyond contact, and up to what distance at radius 1?
 //   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
 //   kWholeArms         in a pair, is the arm of the tangential force the radius? Else it is less by half of the overlap.
-//   kMidpoint            can friction and slip be taken at the middle of the overlap (is_at_midpoint())? Else they are at the
+//   kMidpoint          can friction and slip be taken at the middle of the overlap (is_at_midpoint())? Else they are at the
 //                      radius
 //   evaluate(contact, memory)    of a Contact or a PairContact
 // and, with kVectors or kScalars, and with kHeat
@@ -149,18 +149,26 @@ struct AddedModel {
   }
 };
 
-// The sub-models of `granular`, with the formulas of LAMMPS 4Jul2026. kFull: with those that few scenes
-// use (`mindlin_rescale`, rolling, twisting, heat), each of which may be off. kAll: with those of LIGGGHTS, too.
-template <class Normal, bool kHistory_, bool kFull, bool kAll = false>
+// The sub-models that a law of `granular` is compiled with, beside a normal one and its damping. Rolling, twisting, heat and
+// cohesion may each be off.
+enum class GranularSet {
+  few,         // friction as in LAMMPS, but for `mindlin_rescale`
+  midpoint,    // friction as in LIGGGHTS
+  full,        // few with `mindlin_rescale`, rolling, twisting and heat as in LAMMPS
+  all          // those, and friction, rolling and cohesion as in LIGGGHTS
+};
+
+// The sub-models of `granular`, with the formulas of LAMMPS 4Jul2026.
+template <class Normal, bool kHistory_, GranularSet kSet>
 struct GranularModel {
+  static constexpr bool kAll = kSet == GranularSet::all, kFull = kAll || kSet == GranularSet::full;
   static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory && kFull ? 1 : 0, kScalars = 2 * kVectors;
   static constexpr int kExtra = 3 * kVectors + kScalars;
   static constexpr bool kBeyondContact = Normal::kBeyondContact;
   static constexpr bool kContactTorque = (kHistory && kFull) || kAll, kHeat = kFull;
-  static constexpr bool kWholeArms = false, kMidpoint = kAll;
+  static constexpr bool kWholeArms = false, kMidpoint = kAll || kSet == GranularSet::midpoint;
   using Rolls = std::conditional_t<kAll, AnyRolling, SpringRolling>;
-  static_assert(kFull || !kAll, "all are more than these");
   static_assert(SpringRolling::kAllStore, "a law without memory has no contact torque");
 
   // Places in ContactMemory::extra.
@@ -181,7 +189,10 @@ struct GranularModel {
     return k == 0 ? rolling.stores_vector() : k == 1 ? tangential.rescale : twisting.is_on();
   }
   LSDCD_FN bool has_heat() const { return conduction.is_on(); }
-  LSDCD_FN bool is_at_midpoint() const { return tangential.at_midpoint; }
+  LSDCD_FN bool is_at_midpoint() const
+  {
+    return kSet == GranularSet::midpoint || (kMidpoint && tangential.at_midpoint);
+  }
 
   template <class C>
   LSDCD_FN FullForce evaluate(const C &c, ContactMemory<kExtra> &memory) const
@@ -268,8 +279,8 @@ struct GranularModel {
         if (!tangential.spring) return tangential.slip_force(c, gamma, limit);
         if (tangential.rescale) tangential.rescale_spring(a, memory, kRadius);
       }
-      if constexpr (kAll)
-        if (tangential.at_midpoint) return tangential.sticking_force(c, a, gamma, limit, memory);
+      if constexpr (kMidpoint)
+        if (is_at_midpoint()) return tangential.sticking_force(c, a, gamma, limit, memory);
       return tangential.spring_force(c, a, gamma, limit, memory);
     }
   }

@@ -55,11 +55,10 @@ auto with_added_law(const ContactLaw &p, const Make &make)
 }
 
 // `granular` with one normal sub-model.
-template <bool kHistory, bool kFull, bool kAll = false, class Normal>
-GranularModel<Normal, kHistory, kFull, kAll> granular_model(const ContactLaw &p,
-                                                            const Normal &normal)
+template <bool kHistory, GranularSet kSet, class Normal>
+GranularModel<Normal, kHistory, kSet> granular_model(const ContactLaw &p, const Normal &normal)
 {
-  using Model = GranularModel<Normal, kHistory, kFull, kAll>;
+  using Model = GranularModel<Normal, kHistory, kSet>;
   const TangentialModel t = p.tangential;
   const bool spring = p.has_spring(), mindlin = t >= TangentialModel::mindlin;
   const bool of_force =
@@ -87,30 +86,38 @@ inline TouchingNormal touching_normal(const ContactLaw &p)
   return {p.normal, p.k_normal, p.is(NormalModel::dmt) ? 4 * kPi * p.surface_energy : 0};
 }
 
+inline JkrNormal jkr_normal(const ContactLaw &p)
+{
+  return JkrNormal(p.modulus, p.surface_energy);
+}
+
+// Calls make(law) with one of `granular`: with a set of few sub-models where the law has no others, else with one of more.
+template <GranularSet kFew, GranularSet kMore, class Make>
+auto with_granular_sets(const ContactLaw &p, const Make &make)
+{
+  if (p.is(NormalModel::jkr)) return make(granular_model<true, kMore>(p, jkr_normal(p)));
+  const TouchingNormal normal = touching_normal(p);
+  const bool more =
+      p.rolling.is_on() || p.twisting.is_on() || p.has_heat() || p.rescales() || p.cohesion.is_on();
+  if (p.has_history())
+    return more ? make(granular_model<true, kMore>(p, normal))
+                : make(granular_model<true, kFew>(p, normal));
+  return more ? make(granular_model<false, kMore>(p, normal))
+              : make(granular_model<false, kFew>(p, normal));
+}
+
 // `granular` without sub-models of LIGGGHTS: calls make(law) with the smallest law that has all that is asked for.
 template <class Make>
 auto with_granular_law(const ContactLaw &p, const Make &make)
 {
-  if (p.is(NormalModel::jkr))
-    return make(granular_model<true, true>(p, JkrNormal(p.modulus, p.surface_energy)));
-  const TouchingNormal normal = touching_normal(p);
-  const bool full = p.rolling.is_on() || p.twisting.is_on() || p.has_heat() || p.rescales();
-  if (p.has_history())
-    return full ? make(granular_model<true, true>(p, normal))
-                : make(granular_model<true, false>(p, normal));
-  return full ? make(granular_model<false, true>(p, normal))
-              : make(granular_model<false, false>(p, normal));
+  return with_granular_sets<GranularSet::few, GranularSet::full>(p, make);
 }
 
-// `granular` with sub-models of LIGGGHTS: calls make(law).
+// The same with sub-models of LIGGGHTS, which are its friction where there is neither its rolling nor its cohesion.
 template <class Make>
 auto with_granular_added_law(const ContactLaw &p, const Make &make)
 {
-  if (p.is(NormalModel::jkr))
-    return make(granular_model<true, true, true>(p, JkrNormal(p.modulus, p.surface_energy)));
-  const TouchingNormal normal = touching_normal(p);
-  return p.has_history() ? make(granular_model<true, true, true>(p, normal))
-                         : make(granular_model<false, true, true>(p, normal));
+  return with_granular_sets<GranularSet::midpoint, GranularSet::all>(p, make);
 }
 
 // Any law that keeps_forces or keeps_touch: calls make(law) with one that has all effects, so that few are compiled with books of energy
@@ -120,8 +127,8 @@ auto with_energy_law(const ContactLaw &p, const Make &make)
 {
   if (!p.is_classic()) {
     if (p.is(NormalModel::jkr))
-      return make(granular_model<true, true, true>(p, JkrNormal(p.modulus, p.surface_energy)));
-    return make(granular_model<true, true, true>(p, touching_normal(p)));
+      return make(granular_model<true, GranularSet::all>(p, jkr_normal(p)));
+    return make(granular_model<true, GranularSet::all>(p, touching_normal(p)));
   }
   return with_classic_law(p, [&](const auto &base) {
     return make(AddedModel<std::decay_t<decltype(base)>, true>{

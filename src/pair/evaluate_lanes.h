@@ -79,8 +79,8 @@ void each_choice(AddedModel<Base, kHistory> &law, const Act &act)
   each_choice(law.base, act);
   act(law.rolling.model);
 }
-template <class Normal, bool kHistory, bool kFull, bool kAll, class Act>
-void each_choice(GranularModel<Normal, kHistory, kFull, kAll> &law, const Act &act)
+template <class Normal, bool kHistory, GranularSet kSet, class Act>
+void each_choice(GranularModel<Normal, kHistory, kSet> &law, const Act &act)
 {
   act(law.elastic.model);
   act(law.damping.model);
@@ -157,13 +157,13 @@ struct RollingChoice {
     law.rolling.model = rolling;
   }
   template <class Normal>
-  static bool fits(const GranularModel<Normal, true, true, true> &law)
+  static bool fits(const GranularModel<Normal, true, GranularSet::all> &law)
   {
     return UsualChoice<DampingModel::stiffness>::fits(law) && law.rolling.model == rolling &&
            law.tangential.at_midpoint && !law.twisting.is_on();
   }
   template <class Normal>
-  static void fix(GranularModel<Normal, true, true, true> &law)
+  static void fix(GranularModel<Normal, true, GranularSet::all> &law)
   {
     UsualChoice<DampingModel::stiffness>::fix(law);
     law.rolling.model = rolling;
@@ -241,11 +241,16 @@ void set_wide_of(const Law &law, PairLaw &out)
 {
   set_wide<AnyChoice>(law, out);
 }
-template <class Normal, bool kFull>
-void set_wide_of(const GranularModel<Normal, true, kFull, false> &law, PairLaw &out)
+template <class Normal, GranularSet kSet>
+void set_wide_of(const GranularModel<Normal, true, kSet> &law, PairLaw &out)
 {
   set_wide<UsualChoice<DampingModel::stiffness>, UsualChoice<DampingModel::viscoelastic>,
            AnyChoice>(law, out);
+}
+template <class Normal>
+void set_wide_of(const GranularModel<Normal, true, GranularSet::midpoint> &law, PairLaw &out)
+{
+  set_wide<UsualChoice<DampingModel::stiffness>, AnyChoice>(law, out);
 }
 template <class Law>
 void set_wide_of_liggghts(const Law &law, PairLaw &out)
@@ -260,7 +265,7 @@ void set_wide_of(const AddedModel<Base, kHistory> &law, PairLaw &out)
   set_wide_of_liggghts(law, out);
 }
 template <class Normal>
-void set_wide_of(const GranularModel<Normal, true, true, true> &law, PairLaw &out)
+void set_wide_of(const GranularModel<Normal, true, GranularSet::all> &law, PairLaw &out)
 {
   set_wide_of_liggghts(law, out);
 }

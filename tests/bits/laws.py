@@ -106,6 +106,10 @@ FEW = {
                "rolling sds 2e3 5 0.1 twisting sds 50 0.4 0.02", ""),
     "jkr": ("granular jkr 1e5 40 0.3 2 tangential mindlin_rescale/force NULL 0.6 0.4 rolling sds 2e3 5 0.1 "
             "twisting marshall", ""),
+    "liggghts": ("granular hertz/material 1e5 0.6 0.3 damping coeff_restitution tangential mindlin_liggghts NULL 0.6 0.4", ""),
+    "liggghts-slider": ("granular hooke 1e4 5 tangential linear_nohistory_liggghts 0.7 0.4", ""),
+    "liggghts-spring": ("granular hooke 1e4 5 damping velocity tangential linear_history_liggghts 3e3 0.6 0.4 limit_damping", ""),
+    "liggghts-epsd2": ("granular dmt 1e5 40 0.3 2 tangential mindlin_liggghts NULL 0.6 0.4 rolling epsd2 0.1 cohesion sjkr 500", ""),
 }
 
 # ---- effects -----------------------------------------------------------------------------

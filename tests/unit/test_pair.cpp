@@ -55,7 +55,11 @@ const std::vector<std::string> kLaws = {
     "rolling epsd 0.3 0.2 cohesion sjkr 200",
     "hertz/material 1e5 20 0.3 tangential mindlin_liggghts NULL 0 0.4 rolling cdt 0.3 "
     "limit_damping",
-    "law hertz/history 4e4 NULL 20 NULL 0.4 1 rolling epsd3 0.3 0.1 2"};
+    "law hertz/history 4e4 NULL 20 NULL 0.4 1 rolling epsd3 0.3 0.1 2",
+    "hertz/material 1e5 0.4 0.3 tangential mindlin_liggghts NULL NULL 0.4 damping "
+    "coeff_restitution",
+    "dmt 1e5 20 0.3 5 tangential linear_history_liggghts 500 0.5 0.4",
+    "hooke 1000 30 tangential linear_nohistory_liggghts 1 0.4 damping velocity"};
 
 bool has_whole_arms(const std::string &words)
 {

@@ -21,7 +21,7 @@ bool reads_radius(const ContactModel<Normal, Damping, Tangential> &)
   return Normal::kUsesContactRadius;
 }
 template <class Normal, bool kHistory>
-bool reads_radius(const GranularModel<Normal, kHistory, false> &law)
+bool reads_radius(const GranularModel<Normal, kHistory, GranularSet::few> &law)
 {
   return law.uses_contact_radius || law.elastic.uses_contact_radius();
 }
@@ -79,7 +79,8 @@ CompiledLaw<CpuBackend> booked_law(const ContactLaw &p, ShapeWork &work)
           AddedModel<Base, true>{law, family_of<AnyRolling>(p.rolling), {0}, p.k_tangent},
           reads_radius(law), p.keeps_losses, work);
     });
-  const auto law = granular_model<true, true, true>(p, TouchingNormal{p.normal, p.k_normal, 0});
+  const auto law =
+      granular_model<true, GranularSet::all>(p, TouchingNormal{p.normal, p.k_normal, 0});
   return booked<kRecords>(law, law.uses_contact_radius || law.elastic.uses_contact_radius(),
                           p.keeps_losses, work);
 }
@@ -92,8 +93,8 @@ CompiledLaw<CpuBackend> compiled_law(const ContactLaw &p, bool records, ShapeWor
   if (p.is_classic())
     return with_classic_law(p, [&](const auto &law) { return compiled(law, work); });
   const TouchingNormal normal = {p.normal, p.k_normal, 0};
-  return p.has_history() ? compiled(granular_model<true, false>(p, normal), work)
-                         : compiled(granular_model<false, false>(p, normal), work);
+  return p.has_history() ? compiled(granular_model<true, GranularSet::few>(p, normal), work)
+                         : compiled(granular_model<false, GranularSet::few>(p, normal), work);
 }
 
 }    // namespace

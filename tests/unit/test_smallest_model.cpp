@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Which compiled law a scene gets: one that computes what is asked for, as the law with all sub-models does, and no more.
+#include "law/smallest_model.h"
+
+#include "support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace lsdcd::test_smallest_model {
+namespace {
+
+using All = GranularModel<TouchingNormal, true, GranularSet::all>;
+
+ContactLaw law_with(NormalModel normal, TangentialModel tangential)
+{
+  ContactLaw law = granular_law(normal);
+  law.k_normal = 1e4;
+  law.modulus = 0.75e4;
+  law.surface_energy = 3;
+  law.damping = normal == NormalModel::dmt ? DampingModel::viscoelastic : DampingModel::stiffness;
+  law.eta = 0.4;
+  law.tangential = tangential;
+  law.k_tangent = 3e3;
+  law.xgammat = 0.5;
+  law.mu = 0.4;
+  return law;
+}
+
+// Every law of normal force and friction alone.
+std::vector<ContactLaw> laws_of_few()
+{
+  std::vector<ContactLaw> laws;
+  for (const NormalModel normal : {NormalModel::hooke, NormalModel::hertz, NormalModel::dmt})
+    for (int k = static_cast<int>(TangentialModel::linear_nohistory);
+         k < static_cast<int>(TangentialModel::mindlin_rescale); k++)
+      laws.push_back(law_with(normal, static_cast<TangentialModel>(k)));
+  return laws;
+}
+
+// Calls act(law) with the compiled law of a wall or of pairs.
+template <class Act>
+void with_law(const ContactLaw &p, const Act &act)
+{
+  if (p.is_extended())
+    with_granular_added_law(p, act);
+  else
+    with_granular_law(p, act);
+}
+
+std::string name_of(const ContactLaw &p)
+{
+  return "normal " + std::to_string(static_cast<int>(p.normal)) + ", tangential " +
+         std::to_string(static_cast<int>(p.tangential));
+}
+
+TEST(smallest_model, has_no_sub_model_that_few_scenes_use)
+{
+  for (const ContactLaw &p : laws_of_few())
+    with_law(p, [&](const auto &law) {
+      using Law = std::decay_t<decltype(law)>;
+      EXPECT_EQ(Law::kHistory, p.has_history()) << name_of(p);
+      EXPECT_EQ(Law::kExtra, 0) << name_of(p);
+      EXPECT_FALSE(Law::kContactTorque) << name_of(p);
+      EXPECT_FALSE(Law::kHeat) << name_of(p);
+    });
+}
+
+TEST(smallest_model, has_the_sub_models_of_its_law)
+{
+  for (const ContactLaw &few : laws_of_few()) {
+    ContactLaw p = few;
+    p.heat = HeatModel::area;
+    with_law(p, [&](const auto &law) { EXPECT_TRUE(law.kHeat && law.has_heat()) << name_of(p); });
+    p = few;
+    p.twisting = TwistingModel::sds;
+    with_law(p, [&](const auto &law) { EXPECT_EQ(n_extra(law), 1) << name_of(p); });
+    for (const RollingModel model : {RollingModel::sds, RollingModel::epsd2}) {
+      p = few;
+      p.rolling = model;
+      with_law(p, [&](const auto &law) { EXPECT_EQ(n_extra(law), 3) << name_of(p); });
+    }
+    p = few;
+    p.cohesion = CohesionModel::sjkr;
+    p.cohesion.numbers[0] = 200;
+    with_law(p, [&](const auto &law) {
+      using Law = std::decay_t<decltype(law)>;
+      EXPECT_TRUE((std::is_same_v<typename Law::Rolls, AnyRolling>) ) << name_of(p);
+    });
+  }
+}
+
+// A contact of spheres or of a sphere with a wall, on its way: it slides, and its normal turns.
+template <class C>
+C contact_on_its_way(Random &random)
+{
+  C c = {};
+  c.normal = random_unit(random);
+  c.radius = 0.3;
+  c.mass = 2;
+  c.overlap = uniform(random, 0.001, 0.03);
+  c.v_normal = uniform(random, -1, 1);
+  c.v_tangent = in_plane(uniform(random, {-9, -9, -9}, {9, 9, 9}), c.normal);
+  c.dt = 1e-3;
+  c.update = true;
+  if constexpr (C::kPair) {
+    c.radius_i = 0.5;
+    c.radius_j = 0.75;
+    c.mass_i = 3;
+    c.mass_j = 6;
+  }
+  return c;
+}
+
+template <class C>
+void expect_forces_of_all()
+{
+  Random random(5);
+  for (const ContactLaw &p : laws_of_few())
+    with_law(p, [&](const auto &law) {
+      using Law = std::decay_t<decltype(law)>;
+      const All all = granular_model<true, GranularSet::all>(p, touching_normal(p));
+      ContactMemory<Law::kExtra> memory = {};
+      ContactMemory<All::kExtra> memory_of_all = {};
+      for (int step = 0; step < 200; step++) {
+        C c = contact_on_its_way<C>(random);
+        c.update = step % 20 != 19;
+        const ContactForce found = law.evaluate(c, memory),
+                           expected = all.evaluate(c, memory_of_all);
+        ASSERT_EQ(found.normal, expected.normal) << name_of(p);
+        ASSERT_EQ(found.tangential, expected.tangential) << name_of(p);
+        ASSERT_EQ(found.energy, expected.energy) << name_of(p);
+        ASSERT_EQ(memory.shear, memory_of_all.shear) << name_of(p);
+      }
+    });
+}
+
+TEST(smallest_model, gives_the_forces_of_the_law_with_all_at_a_wall)
+{
+  expect_forces_of_all<Contact>();
+}
+TEST(smallest_model, gives_the_forces_of_the_law_with_all_between_spheres)
+{
+  expect_forces_of_all<PairContact>();
+}
+
+}    // namespace
+}    // namespace lsdcd::test_smallest_model
