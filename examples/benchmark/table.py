@@ -35,7 +35,7 @@ def read_log(path):
         words = line.split()
         if words[:1] == ["Step"]:
             titles = [word.removeprefix("v_") for word in words]
-        elif line.endswith("\n") and len(words) == len(titles) and all(re.match(r"[-+]?(\d|nan|inf)", word) for word in words):
+        elif words and line.endswith("\n") and len(words) == len(titles) and all(re.match(r"[-+]?(\d|nan|inf)", word) for word in words):
             rows[words[0]] = [float(word) for word in words]
     columns = dict(zip(titles, np.array(list(rows.values())).reshape(len(rows), len(titles)).T))
     return {"t": columns.get("Time", np.empty(0)), **columns}

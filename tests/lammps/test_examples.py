@@ -85,7 +85,7 @@ def test_benchmark_logs(folder):
     sys.path.insert(0, str(EXAMPLES / "benchmark"))
     import table
     titles = "   Step           v_t          KinEng          v_z\n"
-    (folder / "impact.log").write_text("1 atom\n" + titles + "      0   0             1.25           0.5\n   1000   0.12345678   -1.5e-3        0.25\nLoop time of 1\n" + titles +
+    (folder / "impact.log").write_text("1 atom\n\n" + titles + "      0   0             1.25           0.5\n   1000   0.12345678   -1.5e-3        0.25\nLoop time of 1\n" + titles +
                                        "   1000   0.12345678   -1.5e-3        0.25\n   2000   0.24691356   12345678901   -nan\n   3000   0.37")
     (folder / "none.log").write_text("ERROR: Cannot open file bed.data\n")
     read = table.read_log(folder / "impact.log")
