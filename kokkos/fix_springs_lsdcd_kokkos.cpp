@@ -3,6 +3,7 @@
 
 #include "fix_springs_lsdcd_kokkos.h"
 
+#include "update.h"
 #include "utils.h"
 
 using namespace LAMMPS_NS;
@@ -19,10 +20,20 @@ FixSpringsLsdcdKokkos<DeviceType>::FixSpringsLsdcdKokkos(LAMMPS *lmp, int narg, 
 }
 
 template <class DeviceType>
-lsdcd::GrainNames FixSpringsLsdcdKokkos<DeviceType>::names()
+lsdcd::ListedGrains FixSpringsLsdcdKokkos<DeviceType>::grains()
 {
-  atomKK->sync(execution_space, TAG_MASK);
-  return {atomKK->k_tag.template view<DeviceType>().data(), sizeof(tagint) == 8};
+  atomKK->sync(execution_space, TAG_MASK | TYPE_MASK);
+  lsdcd::ListedGrains all;
+  all.name = {atomKK->k_tag.template view<DeviceType>().data(), sizeof(tagint) == 8};
+  all.type = atomKK->k_type.template view<DeviceType>().data();
+  all.n_all = atom->nlocal + atom->nghost;
+  all.near = near_images();
+  if constexpr (!lsdcd::kFloatAtoms)
+    if (all.near > 0) {
+      atomKK->sync(execution_space, X_MASK);
+      all.x = lsdcd::rows_of(atomKK->k_x.template view<DeviceType>());
+    }
+  return all;
 }
 
 template <class DeviceType>
@@ -46,10 +57,10 @@ void FixSpringsLsdcdKokkos<DeviceType>::need_on_device(int n_atoms)
 
 template <class DeviceType>
 void FixSpringsLsdcdKokkos<DeviceType>::set_laws(int width, bool booked, const std::string &of_laws,
-                                                 const std::function<unsigned(int, int)> &of_pair)
+                                                 const LawsOfTypes &of_types)
 {
   const bool same = width == law_width && of_laws == kinds;
-  FixSpringsLsdcd::set_laws(width, booked, of_laws, of_pair);
+  FixSpringsLsdcd::set_laws(width, booked, of_laws, of_types);
   if (!same) on_device = false;
 }
 
@@ -63,18 +74,25 @@ void FixSpringsLsdcdKokkos<DeviceType>::begin_step(const lsdcd::PairRows &of_ste
   ghosts_too = newton && !rows.full;
   if (new_list) {
     need_on_device(atom->nlocal);
-    engine->hand_out(rows, names());
+    cleared |= engine->hand_out(rows, grains());
+  } else if (by_law && (watches_types || between_runs)) {
+    cleared |= note_types();
   }
   new_list = shown = false;
   in_pairs = true;
+  if (update->setupflag) tell_cleared();
+}
+
+template <class DeviceType>
+bool FixSpringsLsdcdKokkos<DeviceType>::note_types()
+{
+  return engine->note_types(rows, grains());
 }
 
 template <class DeviceType>
 void FixSpringsLsdcdKokkos<DeviceType>::collect()
 {
-  atomKK->sync(execution_space, TYPE_MASK);
-  engine->collect(rows, names(), atomKK->k_type.template view<DeviceType>().data(),
-                  own + (ghosts_too ? atom->nghost : 0));
+  engine->collect(rows, grains(), own + (ghosts_too ? atom->nghost : 0));
   on_device = true;
   if (ghosts_too) tell_owners();
   ghosts_too = false;
@@ -104,9 +122,13 @@ std::vector<double> FixSpringsLsdcdKokkos<DeviceType>::numbers_of(int i, int j)
     shown = true;
   }
   const lsdcd::Partners &here = of_atoms();
-  atomKK->sync(Host, TAG_MASK);
+  atomKK->sync(Host, TAG_MASK | X_MASK);
+  const lsdcd::Vec3 offset = {atom->x[i][0] - atom->x[j][0], atom->x[i][1] - atom->x[j][1],
+                              atom->x[i][2] - atom->x[j][2]};
+  const lsdcd::PartnerForm &form = here.form();
   for (int k = 0; k < here.count(i); k++)
-    if (here.name(i, k) == atom->tag[j])
+    if (here.name(i, k) == atom->tag[j] &&
+        (!form.by_image || form.is_image(here.numbers(i, k), offset, near_images())))
       return {here.numbers(i, k), here.numbers(i, k) + here.width()};
   return {};
 }

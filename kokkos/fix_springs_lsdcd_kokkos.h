@@ -31,8 +31,8 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
   void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &) override;
 
  protected:
-  void set_laws(int width, bool booked, const std::string &kinds,
-                const std::function<unsigned(int, int)> &flips) override;
+  void set_laws(int width, bool booked, const std::string &kinds, const LawsOfTypes &laws) override;
+  bool note_types() override;
   void collect() override;
   void forget() override;
   int largest_packed_size() const override;
@@ -47,7 +47,7 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
   // Returns what the pair keeps as i sees it; empty: it does not touch.
   std::vector<double> numbers_of(int i, int j);
 
-  lsdcd::GrainNames names();
+  lsdcd::ListedGrains grains();
   void need_on_device(int n_atoms);
 
   class AtomKokkos *atomKK;

@@ -4,12 +4,14 @@
 #include "lammps/fix_springs_lsdcd.h"
 
 #include "base/input_error.h"
+#include "lammps/host_box.h"
 #include "lammps/mpi_host.h"
 #include "lammps/restart_data.h"
 #include "law/force_parts.h"
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "force.h"
 #include "memory.h"
 #include "update.h"
@@ -27,6 +29,32 @@ namespace {
 constexpr int kRoom = 64;    // numbers of an atom in a message, at first
 const char *const kSpringsOfPairs = "springs of pairs";
 const char *const kWithoutSprings = "give the pair style without the restart file's springs";
+
+// Are there several among these texts, which end with ';'?
+bool differ(const std::string &texts)
+{
+  const std::string first = texts.substr(0, texts.find(';') + 1);
+  for (std::size_t at = 0; at < texts.size(); at += first.size())
+    if (texts.compare(at, first.size(), first) != 0) return true;
+  return false;
+}
+
+// What partners are told of atoms. `type`: of the pairs' laws.
+struct AtomsOfPairs {
+  const Atom &atom;
+  const int *type;
+  const std::function<unsigned(int, int)> &flips_of;
+  const std::function<int(int, int)> &kind_of;
+
+  lsdcd::Partners::Name name(int i) const { return atom.tag[i]; }
+  unsigned flips(int i, int j) const { return flips_of(type[i], type[j]); }
+  int kind(int i, int j) const { return kind_of(type[i], type[j]); }
+  lsdcd::Vec3 offset(int i, int j) const
+  {
+    const double *const a = atom.x[i], *const b = atom.x[j];
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  }
+};
 
 // To the process that answers for an ID: an atom's IDs before and now, or the question of partner `at` of process `asks` for the
 // latter.
@@ -96,9 +124,9 @@ int FixSpringsLsdcd::setmask()
 // ---- for the pair style ------------------------------------------------------------------
 
 void FixSpringsLsdcd::set_laws(int width, bool booked, const std::string &of_laws,
-                               const std::function<unsigned(int, int)> &of_pair)
+                               const LawsOfTypes &of_types)
 {
-  flips = of_pair;
+  laws = of_types;
   const bool same = width == law_width && of_laws == kinds;
   if (from_file && !same)
     throw lsdcd::InputError(
@@ -109,10 +137,14 @@ void FixSpringsLsdcd::set_laws(int width, bool booked, const std::string &of_law
   if (!same) {
     if (largest_packed_size() > 1)
       warn("the contact laws have changed, and what pairs had kept is gone: contacts begin anew");
-    partners = lsdcd::Partners(all);
+    by_law = differ(of_laws);
+    partners = lsdcd::Partners({all, by_law});
     partners.grow(atom->nmax);
-  } else if (all != partners.width()) {
-    of_atoms().set_width(all);    // a setup gives pairs the forces that they keep
+  } else if (all != partners.width() || by_law != differ(of_laws)) {
+    by_law = differ(of_laws);    // files of older versions do not say of which law springs are
+    of_atoms().set_form(
+        {all, by_law,
+         of_atoms().form().by_image});    // a setup gives pairs the forces that they keep
   }
   if (!same || booked != books) {
     in_pairs = false;
@@ -128,14 +160,52 @@ void FixSpringsLsdcd::begin_step(const lsdcd::PairList &of_step)
 {
   list = of_step;
   own = atom->nlocal;
+  if (by_law && !new_list && (watches_types || between_runs)) cleared |= note_types();
   now = 1 - now;
-  if (new_list)
-    partners.hand_out(list, history[1 - now],
-                      [this](int i) { return static_cast<lsdcd::Partners::Name>(atom->tag[i]); });
-  if (new_list) row_start.clear();
+  if (new_list) {
+    const AtomsOfPairs atoms = {*atom, atom->type, laws.flips, laws.kind};
+    cleared |= partners.hand_out(list, history[1 - now], near_images(), law_width, atoms);
+    if (by_law) listed_type.assign(atom->type, atom->type + atom->nlocal + atom->nghost);
+    row_start.clear();
+  }
   new_list = false;
   in_pairs = true;
   history[now].begin(partners.width());
+  if (update->setupflag) tell_cleared();
+}
+
+bool FixSpringsLsdcd::note_types()
+{
+  const int *const type = atom->type, *const was = listed_type.data();
+  if (std::equal(listed_type.begin(), listed_type.end(), type)) return false;
+  bool any = false;
+  lsdcd::for_pairs(list, history[now], [&](int i, int j, std::size_t pair) {
+    if (laws.kind(was[i], was[j]) != laws.kind(type[i], type[j]))
+      any |= lsdcd::clear_pair(history[now], pair, law_width);
+  });
+  listed_type.assign(type, type + listed_type.size());
+  return any;
+}
+
+void FixSpringsLsdcd::tell_cleared()
+{
+  if (!by_law) return;
+  int any = cleared;
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
+  if (any)
+    warn(
+        "types of atoms have changed, and contacts whose law keeps other numbers than before begin "
+        "anew, without springs");
+  cleared = false;
+}
+
+double FixSpringsLsdcd::near_images() const
+{
+  const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
+  double least = image_reach;
+  for (int k = 0; k < 3; k++)
+    if (box.periodic[k]) least = std::min(least, box.width(k));
+  return least < image_reach ? least / 2 : 0;
 }
 
 std::vector<double> FixSpringsLsdcd::numbers_of(int row, int place)
@@ -155,10 +225,10 @@ std::vector<double> FixSpringsLsdcd::numbers_of(int row, int place)
 void FixSpringsLsdcd::collect()
 {
   const bool newton = force->newton_pair;
-  partners.collect(
-      list, history[now], newton ? own + atom->nghost : own,
-      [this](int i) { return static_cast<lsdcd::Partners::Name>(atom->tag[i]); },
-      [this](int i, int j) { return flips(atom->type[i], atom->type[j]); });
+  const AtomsOfPairs atoms = {*atom, by_law ? listed_type.data() : atom->type, laws.flips,
+                              laws.kind};
+  partners.collect(list, history[now], newton ? own + atom->nghost : own,
+                   {partners.width(), by_law, near_images() > 0}, atoms);
   if (newton) tell_owners();
 }
 
@@ -209,6 +279,7 @@ void FixSpringsLsdcd::post_run()
   bring_to_atoms();
   between_runs = true;
   keep_names();
+  tell_cleared();
 }
 
 // No dump has the springs of its snapshots, and what is there is of another time. LAMMPS's write_data calls this between runs, and
@@ -223,7 +294,7 @@ void FixSpringsLsdcd::setup_pre_exchange()
 
 void FixSpringsLsdcd::forget()
 {
-  partners = lsdcd::Partners(partners.width());
+  partners = lsdcd::Partners(partners.form());
   partners.grow(atom->nmax);
   in_pairs = false;
 }
@@ -340,11 +411,14 @@ void FixSpringsLsdcd::write_restart(FILE *file)
   lsdcd::MpiHost host(world);
   lsdcd::BookedEnergy everywhere = energy;
   lsdcd::sum_over_processes(host, &everywhere, 1);
+  const lsdcd::PartnerForm form = of_atoms().form();
   if (comm->me != 0) return;
   run_core_here([&] {
     lsdcd::State state(kSpringsOfPairs);
     state.add("width", 1, law_width);
     state.add("laws", 1, kinds);
+    if (form.by_law) state.add("kinds of springs", 1, true);
+    if (form.by_image) state.add("images", 1, true);
     if (books) state.add("energy", 1, everywhere);
     write_state(file, state);
   });
@@ -361,7 +435,11 @@ void FixSpringsLsdcd::restart(char *buffer)
     const lsdcd::Real dt = energy.dt;
     if (comm->me != 0) energy = {};
     energy.dt = dt;
-    partners = lsdcd::Partners(law_width);
+    lsdcd::PartnerForm form = {law_width};
+    state.find("kinds of springs", 1, form.by_law);
+    state.find("images", 1, form.by_image);
+    by_law = form.by_law;
+    partners = lsdcd::Partners(form);
     partners.grow(atom->nmax);
     from_file = true;
   } catch (const lsdcd::StateError &e) {
@@ -405,5 +483,6 @@ void FixSpringsLsdcd::unpack_restart(int i, int nth)
 
 double FixSpringsLsdcd::memory_usage()
 {
-  return static_cast<double>(partners.bytes() + history[0].bytes() + history[1].bytes());
+  return static_cast<double>(partners.bytes() + history[0].bytes() + history[1].bytes() +
+                             listed_type.capacity() * sizeof listed_type[0]);
 }

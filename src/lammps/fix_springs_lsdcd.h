@@ -57,10 +57,14 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
  protected:
   // For the pair style, which is there as long as this is.
   friend class PairGranularLsdcd;
-  // Before a run. `width`: numbers that laws keep of a pair, 0: nothing. `books`: pairs keep KeptForces behind these. `kinds`: equal
-  // where the numbers of all pairs of types mean the same.
-  virtual void set_laws(int width, bool books, const std::string &kinds,
-                        const std::function<unsigned(int type, int other)> &flips);
+  // Of two types: which numbers of a pair change sign where its grains change places, and ContactLaw::history_kind().
+  struct LawsOfTypes {
+    std::function<unsigned(int type, int other)> flips;
+    std::function<int(int type, int other)> kind;
+  };
+  // Before a run. `width`: numbers that laws keep of a pair, 0: nothing. `books`: pairs keep KeptForces behind these. `kinds`: of all
+  // pairs of types, with a ';' behind each.
+  virtual void set_laws(int width, bool books, const std::string &kinds, const LawsOfTypes &laws);
   // Before a step of the pairs in this list.
   void begin_step(const lsdcd::PairList &list);
   const lsdcd::PairHistory &old() const { return history[1 - now]; }
@@ -79,6 +83,12 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   virtual const double *radii() { return atom->radius; }
   // Keeps the IDs that atoms have, for rename_partners().
   void keep_names();
+  // Returns half of the least way from an image of a grain to another; 0: none can touch two.
+  double near_images() const;
+  // Types may have changed since the last step, with the same lists. Returns whether numbers were cleared, as they were of another
+  // law.
+  virtual bool note_types();
+  void tell_cleared();
   virtual int largest_packed_size() const { return partners.largest_packed_size(); }
   // The partners, which may be elsewhere, for atoms that LAMMPS moves one by one and for restart files.
   virtual lsdcd::Partners &of_atoms() { return partners; }
@@ -100,7 +110,12 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   std::string kinds;    // of the laws, or of those of a restart file
   bool from_file =
       false;    // partners are those of a restart file, whose laws have not been checked
-  std::function<unsigned(int, int)> flips;
+  LawsOfTypes laws;
+  // Laws of types keep numbers of several kinds. Types may change in a run between lists, types in the last step of a list's pairs,
+  // numbers were cleared since this was told.
+  bool by_law = false, watches_types = false, cleared = false;
+  std::vector<int> listed_type;
+  double image_reach = 0;    // a grain may touch two images of another that are no further apart
   // Commands between runs may give atoms other IDs: that under which partners know an atom, 0: it is new.
   bool between_runs = true;
   std::vector<tagint> known_as;

@@ -231,7 +231,6 @@ void PairGranularLsdcd::init_style()
   if (!told) tell_laws();
   told = true;
   check_step();
-  warn_of_narrow_box();
 }
 
 const lsdcd::BookedEnergy &PairGranularLsdcd::booked() const
@@ -280,8 +279,13 @@ void PairGranularLsdcd::set_springs()
   if (!springs) return;
   check_order();
   springs->watches_radii = adapts;
+  springs->watches_types = retypes;
   springs->set_laws(width, books, kinds,
-                    [this](int i, int j) { return flips_of[law_index(i, j)]; });
+                    {[this](int i, int j) { return flips_of[law_index(i, j)]; },
+                     [this](int i, int j) { return numbers[law_index(i, j)].history_kind(); }});
+  double largest = 0;
+  for (const Radii &r : radii) largest = std::max({largest, r.moving, r.frozen});
+  springs->image_reach = 2 * radii2cut(largest, largest) + neighbor->skin;    // radii may grow
 }
 
 // Before lists are made anew the springs go from pairs to atoms, whose indices must be those of the last step.
@@ -303,9 +307,11 @@ void PairGranularLsdcd::find_fixes()
 {
   frozen = 0;
   rigid = nullptr;
-  adapts = false;
+  adapts = retypes = false;
   for (Fix *fix : lsdcd::host_fixes(*modify)) {
     if (std::strncmp(fix->style, "adapt", 5) == 0) adapts = true;
+    for (const char *style : {"set", "bond/react", "python/invoke"})
+      if (std::strcmp(fix->style, style) == 0) retypes = true;
     if (std::strncmp(fix->style, "freeze", 6) == 0) {
       if (frozen) fatal("there are two fixes freeze: only one is allowed");
       frozen = fix->groupbit;
@@ -464,25 +470,6 @@ void PairGranularLsdcd::check_step()
          " is more than a tenth of the shortest contact time " + lsdcd::number_text(shortest) +
          how + ": contacts will not be resolved");
   warned_of = std::max(warned_of, update->dt);
-}
-
-// Springs are found again by the ID of the other grain.
-void PairGranularLsdcd::warn_of_narrow_box()
-{
-  if (kept_width() == 0 || told_narrow) return;
-  double largest = 0;
-  for (const Radii &r : radii) largest = std::max({largest, r.moving, r.frozen});
-  const double reach = 2 * radii2cut(largest, largest);
-  const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
-  for (int k = 0; k < 3; k++) {
-    if (told_narrow || !box.periodic[k] || box.width(k) >= reach) continue;
-    told_narrow = true;
-    warn(std::string("the box is periodic along ") + "xyz"[k] + " and " +
-         lsdcd::number_text(box.width(k)) +
-         " wide: where a grain touches two images of another, one contact takes the spring of the "
-         "other, and tangential forces are wrong. Up to the reach of the largest grains, " +
-         lsdcd::number_text(reach) + ", make sure that none does, or make the box wider");
-  }
 }
 
 // ---- a step ------------------------------------------------------------------------------

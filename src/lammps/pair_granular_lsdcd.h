@@ -73,7 +73,6 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   lsdcd::PairJob job();
   void tell_laws();
   void check_step();
-  void warn_of_narrow_box();
 
   double cutoff = -1;
   std::map<std::pair<int, int>, lsdcd::PairCoeff> given;    // i <= j
@@ -84,7 +83,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::map<std::pair<int, int>, std::string>
       without_law;    // types that cannot be mixed, and why; within a hybrid style they may have another style
   std::vector<Radii> radii;
-  bool told = false, told_narrow = false;
+  bool told = false;
   double warned_of = 0;    // the timestep that the last warning was about
   std::string springs_id, dummy_id;
   std::vector<lsdcd::RecordedPair> record;
@@ -95,6 +94,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::vector<int> law_of;                   // of types i and j at i * (n_types + 1) + j
   bool has_heat = false, books = false;
   bool adapts = false;                         // there is a fix adapt, which may change radii
+  bool retypes = false;                        // there is a fix that may change types between lists
   class FixSpringsLsdcd *springs = nullptr;    // null: no law has kept anything yet
   class Fix *rigid = nullptr;
   int frozen = 0;                // bit of the group of fix freeze

@@ -42,6 +42,16 @@ struct PairRows {
   LSDCD_FN int at(int i, int k) const { return neighbor[i * row + k * place]; }
 };
 
+// What is asked of grains while a list is made anew. x is read where `near` is above 0.
+struct ListedGrains {
+  GrainNames name;
+  const int *type = nullptr;
+  StridedView<const Real> x = {};
+  int n_all = 0;
+  Real near =
+      0;    // half of the least way from one image of a grain to another (length), where a grain may touch several; else 0
+};
+
 // What a step of pairs reads and writes; see PairJob. In a full list grains beyond n_own are read only.
 struct PairInput {
   StridedView<const Real> x, v, omega;
@@ -66,9 +76,10 @@ constexpr int kPairSums = 7;
 struct PairLaws {
   std::vector<ContactLaw> laws;
   std::vector<int> law_of;
-  int n_types = 0;       // one more than there are
-  int width = 0;         // numbers that a pair keeps
-  bool books = false;    // the last of them are KeptForces, and energy is booked
+  int n_types = 0;        // one more than there are
+  int width = 0;          // numbers that a pair keeps
+  bool books = false;     // the last of them are KeptForces, and energy is booked
+  bool by_law = false;    // laws keep numbers of several kinds
 };
 
 class PairEngine {
@@ -86,9 +97,12 @@ class PairEngine {
   virtual void sums_of_grains(int n, std::vector<Real> &to) = 0;
 
   // What pairs keep, by grain and partner: see Partners. It is there from collect(), from_cpu() and unpack() to hand_out(). The list
-  // of collect() is that of the last step.
-  virtual void collect(const PairRows &list, const GrainNames &name, const int *type, int n) = 0;
-  virtual void hand_out(const PairRows &list, const GrainNames &name) = 0;
+  // of collect() is that of the last step, and laws are those of the types that grains had then. hand_out() returns whether numbers
+  // were cleared, as the pair has a law of another kind.
+  virtual void collect(const PairRows &list, const ListedGrains &grains, int n) = 0;
+  virtual bool hand_out(const PairRows &list, const ListedGrains &grains) = 0;
+  // Types may have changed since the last step, with the same list and laws by_law. Returns what hand_out() does.
+  virtual bool note_types(const PairRows &list, const ListedGrains &grains) = 0;
   virtual void to_cpu(Partners &partners, int n) = 0;
   virtual void from_cpu(const Partners &partners, int n) = 0;
 

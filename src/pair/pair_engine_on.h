@@ -37,10 +37,12 @@ class PairEngineOn : public PairEngine {
   {
     if (given.width != width_) forget();
     width_ = given.width;
+    of_law_ = given.width - (given.books ? kKeptForces : 0);
+    by_law_ = given.by_law;
     n_types_ = given.n_types;
     laws_.clear();
     std::vector<LawBytes> bytes;
-    std::vector<int> kinds;
+    std::vector<int> kinds, history;
     std::vector<Real> pull_off;
     std::vector<std::uint32_t> flips;
     kinds_.clear();
@@ -56,6 +58,7 @@ class PairEngineOn : public PairEngine {
       if (kind == kinds_.end()) kinds_.push_back(laws_.back());
       bytes.push_back(laws_.back().law);
       pull_off.push_back(law.pull_off());
+      history.push_back(law.history_kind());
       flips.push_back(law.flips() |
                       (given.books ? KeptForces::flips() << (given.width - kKeptForces) : 0));
       if (given.books) {
@@ -73,6 +76,7 @@ class PairEngineOn : public PairEngine {
     kind_of_ = from_cpu_array(kinds);
     pull_off_ = from_cpu_array(pull_off);
     flips_ = from_cpu_array(flips);
+    history_kind_ = from_cpu_array(history);
     law_of_ = from_cpu_array(given.law_of);
     booked_bytes_ = from_cpu_array(booked);
     booked_kind_of_ = from_cpu_array(booked_kinds);
@@ -168,16 +172,19 @@ class PairEngineOn : public PairEngine {
     b_.wait();
   }
 
-  void collect(const PairRows &list, const GrainNames &name, const int *type, int n) override
+  void collect(const PairRows &list, const ListedGrains &given, int n) override
   {
     const std::size_t rows = list.rows;
     most_places_ = kUnknown;
     grow(n);
     Pool &to = pool_[1 - now_];
     put_all(b_, count_.data(), count_.size(), 0);
+    form_ = {width_, by_law_, given.near > 0};
+    ListedGrains grains = given;
+    if (by_law_) grains.type = types_.data();
     const int words = words_of_row(list);
     TouchingPairs from = pool_[now_].view(width_);
-    PartnersView partners = {n, width_, first_.data(), count_.data(), nullptr, nullptr};
+    PartnersView partners = {n, form_, first_.data(), count_.data(), nullptr, nullptr};
     if (!has_last_ || rows == 0) {
       put_all(b_, first_.data(), first_.size(), 0);
       end_ = 0;
@@ -187,21 +194,21 @@ class PairEngineOn : public PairEngine {
     copy_all(b_, count_.data(), first_.data(), count_.size());
     end_ = numbered(b_.exclusive_scan(first_.data(), first_.size()));
     put_all(b_, count_.data(), count_.size(), 0);
-    to.numbers.reserve(end_ * width_);
+    to.numbers.reserve(end_ * form_.stride());
     name_.reserve(end_);
     partners.name = name_.data();
     partners.numbers = to.numbers.data();
-    b_.for_each(rows, FillPartners{list, words, from, name, type, law_of_.data(), n_types_,
-                                   flips_.data(), kStep, partners});
+    b_.for_each(rows, FillPartners{list, words, from, grains, kinds_of_laws(), kStep, partners});
     b_.wait();
   }
 
-  void hand_out(const PairRows &list, const GrainNames &name) override
+  bool hand_out(const PairRows &list, const ListedGrains &grains) override
   {
     Pool &to = pool_[now_];
     const std::size_t rows = list.rows;
     const int words = words_of_row(list);
     to.reserve_rows(rows, words, true);
+    *cleared_.data() = 0;
     if (rows > 0) {
       put_one(b_, places_.data(), PlaceCounts{0, 0});
       b_.for_each_in_warps(rows, TakePlaces{list, count_.data(), places_.data(), to.first.data()});
@@ -210,9 +217,21 @@ class PairEngineOn : public PairEngine {
       // In a half list a grain has partners in other rows than its own, too.
       to.reserve(std::max<std::size_t>(places.taken, fits_all(most_places_) ? most_places_ : 0),
                  width_);
-      b_.for_each(rows, HandOut{list, words, to.view(width_), name, kStep, view()});
+      b_.for_each(rows, HandOut{list, words, to.view(width_), grains, kinds_of_laws(), of_law_,
+                                kStep, view(), cleared_.data()});
     }
     has_last_ = true;
+    return by_law_ && keep_types(grains);
+  }
+
+  bool note_types(const PairRows &list, const ListedGrains &grains) override
+  {
+    *cleared_.data() = 0;
+    if (list.rows > 0 && has_last_)
+      b_.for_each(list.rows, ClearOfOtherLaws{list, words_of_row(list), pool_[now_].view(width_),
+                                              kinds_of_laws(), types_.data(), grains.type, of_law_,
+                                              kStep, cleared_.data()});
+    return keep_types(grains);
   }
 
   void to_cpu(Partners &partners, int n) override
@@ -220,9 +239,9 @@ class PairEngineOn : public PairEngine {
     grow(n);
     const std::size_t m = static_cast<std::size_t>(n);
     const std::vector<int> first = lsdcd::to_cpu(b_, first_, m);
-    partners.assign({first.begin(), first.end()}, lsdcd::to_cpu(b_, count_, m),
+    partners.assign(form_, {first.begin(), first.end()}, lsdcd::to_cpu(b_, count_, m),
                     lsdcd::to_cpu(b_, name_, end_),
-                    lsdcd::to_cpu(b_, pool_[1 - now_].numbers, end_ * width_));
+                    lsdcd::to_cpu(b_, pool_[1 - now_].numbers, end_ * form_.stride()));
   }
 
   void from_cpu(const Partners &partners, int n) override
@@ -230,12 +249,14 @@ class PairEngineOn : public PairEngine {
     std::vector<int> first, count;
     std::vector<Partners::Name> name;
     std::vector<Real> numbers;
+    form_ = partners.form();
     for (int i = 0; i < n; i++) {
       first.push_back(static_cast<int>(name.size()));
       count.push_back(partners.count(i));
       for (int k = 0; k < partners.count(i); k++) {
         name.push_back(partners.name(i, k));
-        numbers.insert(numbers.end(), partners.numbers(i, k), partners.numbers(i, k) + width_);
+        numbers.insert(numbers.end(), partners.numbers(i, k),
+                       partners.numbers(i, k) + form_.stride());
       }
     }
     grow(n);
@@ -271,7 +292,7 @@ class PairEngineOn : public PairEngine {
   {
     grow(n);
     const int *count = count_.data();
-    return 1 + (1 + width_) * b_.template largest<int>(n, ReadInt{count});
+    return 1 + (1 + form_.stride()) * b_.template largest<int>(n, ReadInt{count});
   }
 
   int pack(int n, const int *which, const int *from, double *buffer) override
@@ -291,7 +312,8 @@ class PairEngineOn : public PairEngine {
     b_.for_each(n, CountUnpacked{to, buffer, n_first, second, offsets_.data()});
     const std::size_t total = numbered(b_.exclusive_scan(offsets_.data(), n));
     keep_and_grow(name_, end_, end_ + total);
-    keep_and_grow(pool_[1 - now_].numbers, end_ * width_, (end_ + total) * width_);
+    const std::size_t stride = form_.stride();
+    keep_and_grow(pool_[1 - now_].numbers, end_ * stride, (end_ + total) * stride);
     b_.for_each(n, UnpackPartners{to, buffer, n_first, second, offsets_.data(),
                                   static_cast<int>(end_), view()});
     b_.wait();
@@ -302,7 +324,7 @@ class PairEngineOn : public PairEngine {
   std::size_t bytes() const override
   {
     return pool_[0].bytes() + pool_[1].bytes() + name_.size() * sizeof(Partners::Name) +
-           (first_.size() + count_.size() + offsets_.size()) * sizeof(int) +
+           (first_.size() + count_.size() + offsets_.size() + types_.size()) * sizeof(int) +
            sums_.size() * sizeof(Real) + energy_.size() * sizeof(EnergyRows) + is_booked_.size();
   }
 
@@ -363,8 +385,22 @@ class PairEngineOn : public PairEngine {
 
   PartnersView view()
   {
-    return {static_cast<int>(count_.size()), width_, first_.data(), count_.data(), name_.data(),
+    return {static_cast<int>(count_.size()), form_, first_.data(), count_.data(), name_.data(),
             pool_[1 - now_].numbers.data()};
+  }
+
+  KindsOfLaws kinds_of_laws() const
+  {
+    return {law_of_.data(), n_types_, flips_.data(), history_kind_.data()};
+  }
+  // Keeps the types of grains, once kernels have read those of before. Returns whether one of these has cleared numbers.
+  bool keep_types(const ListedGrains &grains)
+  {
+    b_.wait();
+    const auto n = static_cast<std::size_t>(grains.n_all);
+    types_.reserve(n);
+    copy_all(b_, grains.type, types_.data(), n);
+    return *cleared_.data() != 0;
   }
 
   template <class T>
@@ -425,10 +461,11 @@ class PairEngineOn : public PairEngine {
   std::size_t most_bytes_;
   std::vector<PairLawOn<B>> laws_, kinds_;    // of all laws; the first of each kind
   Array<LawBytes> bytes_;
-  Array<int> kind_of_, law_of_;
+  Array<int> kind_of_, law_of_, history_kind_;
   Array<Real> pull_off_;
   Array<std::uint32_t> flips_;
-  int n_types_ = 0, width_ = 0;
+  int n_types_ = 0, width_ = 0, of_law_ = 0;
+  bool by_law_ = false;
   bool beyond_ = false;    // does adhesion act beyond contact?
 
   Pool pool_[2];
@@ -455,7 +492,10 @@ class PairEngineOn : public PairEngine {
 
   Array<int> first_, count_, offsets_;    // of partners
   Array<Partners::Name> name_;            // their numbers are in the pool that the next step writes
+  PartnerForm form_;                      // of these numbers
   std::size_t end_ = 0;                   // of what is used of them
+  Array<int> types_;                      // of grains, when laws of several kinds were looked up
+  typename B::template CpuArray<int> cleared_ = typename B::template CpuArray<int>(1);
 };
 
 }    // namespace lsdcd

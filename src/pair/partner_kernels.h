@@ -23,9 +23,23 @@ LSDCD_FN void for_touching(const PairRows &list, int words, const std::uint32_t 
       f(list.at(i, kWordBits * w + static_cast<int>(lowest_bit(bits))) & list.mask);
 }
 
+// Of laws: what tells their numbers apart, and which of these flip (ContactLaw).
+struct KindsOfLaws {
+  const int *law_of;
+  int n_types;
+  const std::uint32_t *flips;
+  const int *kind;
+
+  LSDCD_FN int law(const int *type, int i, int j) const
+  {
+    return law_of[type[i] * n_types + type[j]];
+  }
+};
+
 // What grains have of partners, while kernels fill it.
 struct PartnersView {
-  int n, width;
+  int n;
+  PartnerForm form;
   int *first, *count;
   Partners::Name *name;
   Real *numbers;
@@ -53,11 +67,9 @@ struct FillPartners {
   PairRows list;
   int words;
   TouchingPairs from;
-  GrainNames name;
-  const int *type, *law_of;
-  int n_types;
-  const std::uint32_t *flips;    // of laws, see ContactLaw::flips()
-  unsigned step;                 // see kGpuPairStep
+  ListedGrains grains;
+  KindsOfLaws laws;
+  unsigned step;    // see kGpuPairStep
   PartnersView to;
 
   LSDCD_FN void operator()(std::size_t k) const
@@ -65,21 +77,55 @@ struct FillPartners {
     const int i = list.grain[k];
     std::size_t pair = static_cast<std::size_t>(from.first[k]);
     for_touching(list, words, from.words, k, [&](int j) {
-      if (i < to.n) put(i, name[j], from.of(pair), 0);
-      if (!list.full && j < to.n)
-        put(j, name[i], from.of(pair), flips[law_of[type[i] * n_types + type[j]]]);
+      if (i < to.n) put(i, j, from.of(pair), 0);
+      if (!list.full && j < to.n) put(j, i, from.of(pair), laws.flips[laws.law(grains.type, i, j)]);
       pair += step;
     });
   }
 
  private:
-  LSDCD_FN void put(int i, Partners::Name partner, const PairNumbers<Real> &numbers,
-                    std::uint32_t flip) const
+  LSDCD_FN void put(int i, int partner, const PairNumbers<Real> &numbers, std::uint32_t flip) const
   {
     const std::size_t at = std::size_t(to.first[i]) + fetch_add(to.count + i, 1);
-    to.name[at] = partner;
-    for (int n = 0; n < to.width; n++)
-      to.numbers[at * to.width + n] = flip >> n & 1 ? -numbers[n] : numbers[n];
+    to.name[at] = grains.name[partner];
+    const PartnerForm &form = to.form;
+    Real *const put = to.numbers + at * form.stride();
+    for (int n = 0; n < form.width; n++) put[n] = flip >> n & 1 ? -numbers[n] : numbers[n];
+    if (form.by_law) put[form.width] = laws.kind[laws.law(grains.type, i, partner)];
+    if (!form.by_image) return;
+    const Vec3 offset = grains.x[i] - grains.x[partner];
+    for (int n = 0; n < 3; n++) put[form.image_at() + n] = offset[n];
+  }
+};
+
+// Clears the first of_law numbers of pairs that touch and whose law is of another kind than it was with types `was`.
+struct ClearOfOtherLaws {
+  PairRows list;
+  int words;
+  TouchingPairs pairs;
+  KindsOfLaws laws;
+  const int *was, *type;
+  int of_law;
+  unsigned step;    // see kGpuPairStep
+  int *cleared;     // becomes 1 where one was not 0
+
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    const int i = list.grain[k];
+    std::size_t pair = static_cast<std::size_t>(pairs.first[k]);
+    for_touching(list, words, pairs.words, k, [&](int j) {
+      if (laws.kind[laws.law(was, i, j)] != laws.kind[laws.law(type, i, j)])
+        clear(pairs.of(pair), of_law, cleared);
+      pair += step;
+    });
+  }
+
+  LSDCD_FN static void clear(const PairNumbers<Real> &numbers, int n, int *cleared)
+  {
+    for (int k = 0; k < n; k++) {
+      if (numbers[k] != 0) set_flag(cleared);
+      numbers[k] = 0;
+    }
   }
 };
 
@@ -107,36 +153,52 @@ struct TakePlaces {
   }
 };
 
-// Gives what partners have to the pairs of a new list.
+// Gives what partners have to the pairs of a new list; see Partners::hand_out().
 struct HandOut {
   PairRows list;
   int words;
   TouchingPairs to;
-  GrainNames name;
+  ListedGrains grains;
+  KindsOfLaws laws;
+  int of_law;
   unsigned step;    // see kGpuPairStep
   PartnersView from;
+  int *cleared;    // becomes 1 where a number was not 0
 
   LSDCD_FN void operator()(std::size_t k) const
   {
     const int i = list.grain[k], n = list.length[i], count = from.count[i];
     const std::size_t first = static_cast<std::size_t>(from.first[i]);
+    const PartnerForm &form = from.form;
+    const Real *const all = from.numbers + first * form.stride();
     std::size_t pair = static_cast<std::size_t>(to.first[k]);
     int left = count;
     for (int w = 0; w < words; w++) {
       std::uint32_t bits = 0;
       for (int bit = 0; bit < kWordBits && kWordBits * w + bit < n && left > 0; bit++) {
-        const Partners::Name other = name[list.at(i, kWordBits * w + bit) & list.mask];
+        const int j = list.at(i, kWordBits * w + bit) & list.mask;
+        const Partners::Name other = grains.name[j];
         int p = 0;
-        while (p < count && from.name[first + p] != other) p++;
+        while (p < count && !(from.name[first + p] == other &&
+                              (!form.by_image || is_image(all + p * form.stride(), i, j))))
+          p++;
         if (p == count) continue;
         bits |= std::uint32_t(1) << bit;
-        for (int m = 0; m < from.width; m++)
-          to.of(pair)[m] = from.numbers[(first + p) * from.width + m];
+        const Real *const kept = all + p * form.stride();
+        for (int m = 0; m < form.width; m++) to.of(pair)[m] = kept[m];
+        if (form.by_law && !form.is_of_law(kept, laws.kind[laws.law(grains.type, i, j)]))
+          ClearOfOtherLaws::clear(to.of(pair), of_law, cleared);
         pair += step;
         left--;
       }
       to.words[std::size_t(w) * list.rows + k] = bits;
     }
+  }
+
+ private:
+  LSDCD_FN bool is_image(const Real *kept, int i, int j) const
+  {
+    return from.form.is_image(kept, grains.x[i] - grains.x[j], grains.near);
   }
 };
 
@@ -151,7 +213,10 @@ struct SizeOfPacked {
   const int *which;
   PartnersView of;
   int *to;
-  LSDCD_FN void operator()(std::size_t k) const { to[k] = 1 + (1 + of.width) * of.count[which[k]]; }
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    to[k] = 1 + (1 + of.form.stride()) * of.count[which[k]];
+  }
 };
 
 struct PackPartners {
@@ -168,7 +233,8 @@ struct PackPartners {
     for (int c = 0; c < of.count[i]; c++) {
       const std::size_t source = std::size_t(of.first[i]) + c;
       buffer[m++] = static_cast<double>(of.name[source]);
-      for (int e = 0; e < of.width; e++) buffer[m++] = of.numbers[source * of.width + e];
+      const int stride = of.form.stride();
+      for (int e = 0; e < stride; e++) buffer[m++] = of.numbers[source * stride + e];
     }
     const int j = from[k];
     if (j >= 0) {
@@ -208,7 +274,8 @@ struct UnpackPartners {
     for (int c = 0; c < of.count[i]; c++) {
       const std::size_t target = std::size_t(of.first[i]) + c;
       of.name[target] = static_cast<Partners::Name>(buffer[m++]);
-      for (int e = 0; e < of.width; e++) of.numbers[target * of.width + e] = buffer[m++];
+      const int stride = of.form.stride();
+      for (int e = 0; e < stride; e++) of.numbers[target * stride + e] = buffer[m++];
     }
   }
 };

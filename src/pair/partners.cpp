@@ -17,17 +17,24 @@ void Partners::grow(int n_grains)
 void Partners::append(Name name, const Real *numbers)
 {
   name_.push_back(name);
-  numbers_.insert(numbers_.end(), numbers, numbers + width_);
+  numbers_.insert(numbers_.end(), numbers, numbers + stride_);
 }
 
-void Partners::set_width(int width)
+void Partners::set_form(const PartnerForm &form)
 {
-  const std::size_t of = static_cast<std::size_t>(width), kept = std::min(of, width_);
+  const auto of = static_cast<std::size_t>(form.stride());
   std::vector<Real> numbers(name_.size() * of);
-  for (std::size_t k = 0; k < name_.size(); k++)
-    std::copy_n(numbers_.data() + k * width_, kept, numbers.data() + k * of);
+  for (std::size_t k = 0; k < name_.size(); k++) {
+    const Real *const from = numbers_.data() + k * stride_;
+    Real *const to = numbers.data() + k * of;
+    std::copy_n(from, std::min(form.width, form_.width), to);
+    if (form.by_law) to[form.width] = form_.by_law ? from[form_.width] : PartnerForm::kUnknownLaw;
+    if (form.by_image && form_.by_image)
+      std::copy_n(from + form_.image_at(), 3, to + form.image_at());
+  }
   numbers_ = std::move(numbers);
-  width_ = of;
+  form_ = form;
+  stride_ = of;
 }
 
 int Partners::pack(int i, Real *to, int width) const
@@ -37,6 +44,7 @@ int Partners::pack(int i, Real *to, int width) const
   for (int k = 0; k < count_[i]; k++) {
     *to++ = static_cast<Real>(name(i, k));
     to = std::copy_n(numbers(i, k), width, to);
+    to = std::copy(numbers(i, k) + form_.width, numbers(i, k) + stride_, to);
   }
   return static_cast<int>(to - begin);
 }
@@ -54,29 +62,29 @@ int Partners::unpack_more(int i, const Real *from)
   first_[i] = name_.size();
   for (int k = 0; k < had; k++) {
     const std::vector<Real> numbers(
-        numbers_.begin() + static_cast<std::ptrdiff_t>((old + k) * width_),
-        numbers_.begin() + static_cast<std::ptrdiff_t>((old + k + 1) * width_));
+        numbers_.begin() + static_cast<std::ptrdiff_t>((old + k) * stride_),
+        numbers_.begin() + static_cast<std::ptrdiff_t>((old + k + 1) * stride_));
     append(name_[old + k], numbers.data());
   }
   for (int k = 0; k < more; k++) {
-    const Real *const row = from + 1 + k * (1 + width_);
+    const Real *const row = from + 1 + k * (1 + stride_);
     append(static_cast<Name>(row[0]), row + 1);
   }
   count_[i] = had + more;
-  return static_cast<int>(1 + more * (1 + width_));
+  return static_cast<int>(1 + more * (1 + stride_));
 }
 
 int Partners::largest_packed_size() const
 {
   const auto most = std::max_element(count_.begin(), count_.end());
-  return 1 + (most == count_.end() ? 0 : *most) * (1 + width());
+  return 1 + (most == count_.end() ? 0 : *most) * (1 + form_.stride());
 }
 
 bool Partners::is_sound(const Real *from, int size) const
 {
   if (size < 1) return false;
   const Real n = from[0];
-  return n >= 0 && n == std::floor(n) && size == 1 + n * (1 + width()) &&
+  return n >= 0 && n == std::floor(n) && size == 1 + n * (1 + form_.stride()) &&
          std::all_of(from, from + size, [](Real a) { return std::isfinite(a); });
 }
 

@@ -5,6 +5,7 @@
 // processes or into files.
 #pragma once
 
+#include "base/vec3.h"
 #include "pair/pair_job.h"
 
 #include <cstddef>
@@ -14,24 +15,57 @@
 
 namespace lsdcd {
 
-// Partners of grain i and `width` numbers for each of them, as grain i sees them. The host may copy, pack, unpack and reset
+// The numbers of a partner: those of the pair, and behind them what tells whether a pair of a new list goes on with them.
+struct PartnerForm {
+  int width = 0;    // numbers of the pair
+  // One more: ContactLaw::history_kind() of the law that keeps them; kUnknownLaw: any may have.
+  bool by_law = false;
+  // Three more: the place of the grain less that of the partner, length, as a grain may touch several images of another, or its
+  // own. All 0: it may have been any image.
+  bool by_image = false;
+  static constexpr Real kUnknownLaw = -1;
+
+  LSDCD_FN int stride() const { return image_at() + (by_image ? 3 : 0); }
+  LSDCD_FN int image_at() const { return width + (by_law ? 1 : 0); }
+
+  // Are these the numbers of the pair with this offset? Images are further apart than twice `near`, 0: there is one only.
+  LSDCD_FN bool is_image(const Real *numbers, const Vec3 &offset, Real near) const
+  {
+    const Real *const at = numbers + image_at();
+    const Vec3 was = {at[0], at[1], at[2]};
+    return !(near > 0) || norm_sq(was) == 0 || norm_sq(offset - was) < near * near;
+  }
+  // May a law of this kind go on with these numbers?
+  LSDCD_FN bool is_of_law(const Real *numbers, int kind) const
+  {
+    return !by_law || numbers[width] == kUnknownLaw || numbers[width] == kind;
+  }
+};
+
+// Partners of grain i and numbers for each of them, as grain i sees them. The host may copy, pack, unpack and reset
 // grains. In messages and files a grain has a count, and for each partner its name and its numbers.
 class Partners {
  public:
   using Name = std::int64_t;    // of a grain, the same on all processes
 
-  explicit Partners(int width = 0) : width_(width) {}
-  int width() const { return static_cast<int>(width_); }
+  explicit Partners(const PartnerForm &form = {}) :
+      form_(form), stride_(static_cast<std::size_t>(form.stride()))
+  {
+  }
+  const PartnerForm &form() const { return form_; }
+  int width() const { return form_.width; }
 
   void grow(int n_grains);    // keeps what is there; new grains have none
-  // Gives each partner as many numbers: the first ones stay, and others are 0.
-  void set_width(int width);
+  // Gives each partner such numbers: those of the pair that were there stay, others are 0 or not known.
+  void set_form(const PartnerForm &form);
   void copy(int from, int to) { first_[to] = first_[from], count_[to] = count_[from]; }
   void clear(int i) { count_[i] = 0; }
   // Takes partners in place of all that is there: those of grain i are first[i], and count[i] - 1 behind it.
-  void assign(std::vector<std::size_t> first, std::vector<int> count, std::vector<Name> name,
-              std::vector<Real> numbers)
+  void assign(const PartnerForm &form, std::vector<std::size_t> first, std::vector<int> count,
+              std::vector<Name> name, std::vector<Real> numbers)
   {
+    form_ = form;
+    stride_ = static_cast<std::size_t>(form.stride());
     first_ = std::move(first);
     count_ = std::move(count);
     name_ = std::move(name);
@@ -40,21 +74,28 @@ class Partners {
   int count(int i) const { return count_[i]; }
   Name name(int i, int k) const { return name_[first_[i] + k]; }
   void rename(int i, int k, Name name) { name_[first_[i] + k] = name; }
-  const Real *numbers(int i, int k) const { return numbers_.data() + width_ * (first_[i] + k); }
+  const Real *numbers(int i, int k) const { return numbers_.data() + stride_ * (first_[i] + k); }
 
-  // Takes over what the pairs of a list keep, for the first n grains, both of each pair. `name(i)`: of a grain.
-  // `flips(i, j)`: which numbers change sign where i and j change places, see ContactLaw::flips().
-  template <class NameOf, class Flips>
-  void collect(const PairList &list, const PairHistory &history, int n, const NameOf &name,
-               const Flips &flips);
-  // Gives it to the pairs of a new list. Pairs that are not in it any more have parted.
-  template <class NameOf>
-  void hand_out(const PairList &list, PairHistory &history, const NameOf &name) const;
+  // Takes over what the pairs of a list keep, for the first n grains, both of each pair. Of grains: name(i), and of pairs
+  //   flips(i, j)    which numbers change sign where i and j change places, see ContactLaw::flips()
+  //   kind(i, j)     of the law that keeps them, see PartnerForm
+  //   offset(i, j)   of i less that of j
+  template <class Grains>
+  void collect(const PairList &list, const PairHistory &history, int n, const PartnerForm &form,
+               const Grains &grains);
+  // Gives it to the pairs of a new list. Pairs that are not in it any more have parted. Where the law is of another kind, the first
+  // of_law numbers are 0; returns whether any was not. `near`: see PartnerForm::is_image().
+  template <class Grains>
+  bool hand_out(const PairList &list, PairHistory &history, Real near, int of_law,
+                const Grains &grains) const;
 
   int packed_size(int i) const { return packed_size(i, width()); }
   int pack(int i, Real *to) const { return pack(i, to, width()); }    // returns packed_size(i)
-  // The same with the first `width` numbers of each partner.
-  int packed_size(int i, int width) const { return 1 + (1 + width) * count_[i]; }
+  // The same with the first `width` numbers of each pair.
+  int packed_size(int i, int width) const
+  {
+    return 1 + (1 + width + form_.stride() - form_.width) * count_[i];
+  }
   int pack(int i, Real *to, int width) const;
   int unpack(int i,
              const Real *from);    // in place of what it has; returns how many numbers were read
@@ -67,29 +108,48 @@ class Partners {
  private:
   void append(Name name, const Real *numbers);
 
-  std::size_t width_;
+  PartnerForm form_;
+  std::size_t stride_;
   std::vector<std::size_t> first_;
   std::vector<int> count_;
   std::vector<Name> name_;
   std::vector<Real> numbers_;
 };
 
-template <class NameOf, class Flips>
-void Partners::collect(const PairList &list, const PairHistory &history, int n, const NameOf &name,
-                       const Flips &flips)
+// Calls act(i, j, number of the pair in the history) for the pairs of a list that have one.
+template <class Act>
+void for_pairs(const PairList &list, const PairHistory &history, const Act &act)
 {
-  const auto for_pairs = [&](const auto &act) {
-    std::size_t pair = 0, start = 0;
-    for (int k = 0; k < list.rows; k++) {
-      const int i = list.grain[k];
-      const std::size_t end = start + static_cast<std::size_t>(list.length[i]);
-      for (; pair < history.size() && history.key(pair) < end; pair++)
-        act(i, list.row[i][history.key(pair) - start] & list.mask, pair);
-      start = end;
-    }
-  };
+  std::size_t pair = 0, start = 0;
+  for (int k = 0; k < list.rows; k++) {
+    const int i = list.grain[k];
+    const std::size_t end = start + static_cast<std::size_t>(list.length[i]);
+    for (; pair < history.size() && history.key(pair) < end; pair++)
+      act(i, list.row[i][history.key(pair) - start] & list.mask, pair);
+    start = end;
+  }
+}
+
+// Clears the first n numbers of a pair of the history. Returns whether any was not 0.
+inline bool clear_pair(PairHistory &history, std::size_t pair, int n)
+{
+  bool any = false;
+  for (int k = 0; k < n; k++) {
+    Real &number = history.column(k)[pair];
+    any = any || number != 0;
+    number = 0;
+  }
+  return any;
+}
+
+template <class Grains>
+void Partners::collect(const PairList &list, const PairHistory &history, int n,
+                       const PartnerForm &form, const Grains &grains)
+{
+  form_ = form;
+  stride_ = static_cast<std::size_t>(form.stride());
   for (int &count : count_) count = 0;
-  for_pairs([&](int i, int j, std::size_t) {
+  for_pairs(list, history, [&](int i, int j, std::size_t) {
     if (i < n) count_[i]++;
     if (j < n) count_[j]++;
   });
@@ -100,47 +160,55 @@ void Partners::collect(const PairList &list, const PairHistory &history, int n, 
     count_[i] = 0;
   }
   name_.resize(all);
-  numbers_.resize(all * width_);
-  for_pairs([&](int i, int j, std::size_t pair) {
-    if (i < n) {
-      const std::size_t at = first_[i] + static_cast<std::size_t>(count_[i]++);
-      name_[at] = name(j);
-      for (std::size_t k = 0; k < width_; k++)
-        numbers_[at * width_ + k] = history.column(static_cast<int>(k))[pair];
-    }
-    if (j < n) {
-      const std::size_t at = first_[j] + static_cast<std::size_t>(count_[j]++);
-      const unsigned flip = flips(i, j);
-      name_[at] = name(i);
-      for (std::size_t k = 0; k < width_; k++) {
-        const Real a = history.column(static_cast<int>(k))[pair];
-        numbers_[at * width_ + k] = flip >> k & 1 ? -a : a;
+  numbers_.resize(all * stride_);
+  for_pairs(list, history, [&](int i, int j, std::size_t pair) {
+    const auto put = [&](int grain, int partner, unsigned flip) {
+      const std::size_t at = first_[grain] + static_cast<std::size_t>(count_[grain]++);
+      name_[at] = grains.name(partner);
+      Real *to = numbers_.data() + at * stride_;
+      for (int k = 0; k < form.width; k++) {
+        const Real a = history.column(k)[pair];
+        *to++ = flip >> k & 1 ? -a : a;
       }
-    }
+      if (form.by_law) *to++ = grains.kind(i, j);
+      if (!form.by_image) return;
+      const Vec3 offset = grains.offset(grain, partner);
+      for (int k = 0; k < 3; k++) *to++ = offset[k];
+    };
+    if (i < n) put(i, j, 0);
+    if (j < n) put(j, i, grains.flips(i, j));
   });
 }
 
-template <class NameOf>
-void Partners::hand_out(const PairList &list, PairHistory &history, const NameOf &name) const
+template <class Grains>
+bool Partners::hand_out(const PairList &list, PairHistory &history, Real near, int of_law,
+                        const Grains &grains) const
 {
   history.begin(width());
   std::size_t start = 0;
+  bool cleared = false;
   for (int k = 0; k < list.rows; k++) {
     const int i = list.grain[k];
     int left = count_[i];
     for (int place = 0; place < list.length[i] && left > 0; place++) {
-      const Name other = name(list.row[i][place] & list.mask);
+      const int j = list.row[i][place] & list.mask;
+      const Name other = grains.name(j);
       for (int p = 0; p < count_[i]; p++) {
         if (this->name(i, p) != other) continue;
+        const Real *const kept = numbers(i, p);
+        if (form_.by_image && !form_.is_image(kept, grains.offset(i, j), near)) continue;
         const std::size_t key = start + static_cast<std::size_t>(place),
                           pair = history.append(&key, 1);
-        for (int m = 0; m < width(); m++) history.column(m)[pair] = numbers(i, p)[m];
+        for (int m = 0; m < width(); m++) history.column(m)[pair] = kept[m];
+        if (form_.by_law && !form_.is_of_law(kept, grains.kind(i, j)))
+          cleared |= clear_pair(history, pair, of_law);
         left--;
         break;
       }
     }
     start += static_cast<std::size_t>(list.length[i]);
   }
+  return cleared;
 }
 
 }    // namespace lsdcd

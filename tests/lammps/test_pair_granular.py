@@ -533,13 +533,78 @@ def test_timestep(folder):
         fact(f"timestep {dt}: warned" if warns else f"timestep {dt}: not warned", ("contacts will not be resolved" in text) == warns)
 
 
-def test_narrow_box(folder):
-    """A grain that touches two images of another cannot tell their springs apart: a warning where a box is narrower than two grains."""
-    law = ours("* * hooke 1e3 0 tangential linear_history 500 0 100 damping mass_velocity")
-    for width, boundary, warns in ((1.99, "f p f", True), (2, "f p f", False), (1.99, "f f f", False)):
-        text = lmp.run_well(lmp.head(f"-5 5 0 {width} -5 5", boundary) + "create_atoms 1 single 0 1 0\nset group all diameter 1 density 1\n" + law +
-                            "\nfix i all nve/sphere\nrun 0\n", folder)
-        fact(f"a box {width} wide, {boundary}: {'warned' if warns else 'not warned'}", ("the box is periodic along y and 1.99 wide" in text) == warns)
+# Grains of diameter 1 that a box with another width along y lets touch on both sides, and that spin about z as in gears.
+IN_A_SLICE = """\
+neighbor 0.05 bin
+neigh_modify delay 0 every 7 check no
+{pair}
+{atoms}
+set group all diameter 1 density 1
+set group all omega 0 0 2
+fix i all nve/noforce
+timestep 1e-4
+"""
+SLICES = {"two images": ("-5 5 0 1.9 -5 5", "create_atoms 1 single 0 0.3 0\ncreate_atoms 1 single 0 1.25 0\n"),
+          "its own image": ("-5 5 0 0.95 -5 5", "create_atoms 1 single 0 0.3 0\n"),
+          "two images in a tilted box": ("-5 5 0 1.9 -5 5 0 0 0.2", "create_atoms 1 single 0 0.3 0\ncreate_atoms 1 single 0 1.25 0\n")}
+
+
+@pytest.mark.parametrize("newton", ["off", "on"])
+@pytest.mark.parametrize("slice", SLICES)
+def test_narrow_box(folder, slice, newton):
+    """A grain that touches two images of another, or of itself, has two springs, which go with it to other processes and into restart
+    files. Surfaces slip by 2 w R: the torque is that of two such contacts at an arm of R, and forces cancel."""
+    box, atoms = SLICES[slice]
+    start = lmp.head(box, "p p p", newton=newton)
+    rest = IN_A_SLICE.format(pair=ours("* * law hooke/history 1e4 5e3 0 0 100 0"), atoms=atoms)
+    for ranks in (1, 2):
+        lmp.run_well(start + rest + "run 505\n" + dump("out", 500) + "run 500\nwrite_restart r\n", folder, ranks)
+        again = rest.replace(atoms, "").replace("set group all diameter 1 density 1\n", "")
+        lmp.run_well(lmp.head("", "p p p", newton=newton) + "read_restart r\n" + again + dump("later", 995) + "run 995\n", folder, ranks)
+        for name, step in (("out", 1000), ("later", 1990)):
+            expected = -2 * 0.5 * 5e3 * (2 * 2 * 0.5) * 1e-4 * step
+            for number, row in lmp.read_dump(folder / name)[step].items():
+                where = f"{slice}, newton {newton}, {ranks} ranks, step {step}, grain {number}"
+                at_most(where + ": torque", abs(row[14] / expected - 1), 1e-10)
+                at_most(where + ": friction", abs(row[9]), 1e-9 * abs(expected))
+
+
+# Pairs of laws and whether their springs mean the same.
+DISPLACEMENT = "hooke 1e4 0 tangential linear_history 5e3 0 1 damping velocity"
+OTHER = {"hooke 2e4 0 tangential linear_history 2.5e3 0 1 damping velocity": True,
+         "hertz 1e4 0 tangential mindlin/force 5e3 0 1 damping velocity": False,
+         DISPLACEMENT + " rolling sds 300 0 1": False,
+         "hooke 1e4 0 tangential linear_nohistory 0 1 damping velocity": None}
+
+
+@pytest.mark.parametrize("law", OTHER)
+def test_types_change(folder, law):
+    """A contact whose grains get other types begins anew where the law of these keeps other numbers, and the log tells it; where the
+    numbers are the same, springs stay."""
+    text = lmp.head("0 4 0 4 0 4", types=2) + f"""\
+create_atoms 1 single 1 2 2
+create_atoms 1 single 1.98 2 2
+set group all diameter 1 density 1
+set group all omega 0 0 0.1
+{ours("1 1 " + DISPLACEMENT, "2 2 " + law, "1 2 " + DISPLACEMENT)}
+fix i all nve/noforce
+timestep 1e-4
+run 1000
+write_dump all custom first {COLUMNS}
+"""
+    pairs = "\n".join(line for line in text.split("\n") if line.startswith("pair_")) + "\n"
+    # R w t on both sides, and in a step more.
+    spring, more = 2 * 0.5 * 0.1 * 0.1, 2 * 0.5 * 0.1 * 1e-4
+    changes = {"set": "set group all type 2\nrun 0\n", "set, with lists as they are": "set group all type 2\nrun 1 pre no\n",
+               "restart": "set group all type 2\nwrite_restart r\nclear\n" + lmp.head() + "read_restart r\n" + pairs + "run 0\n",
+               "set after a restart": "write_restart r\nclear\n" + lmp.head() + "read_restart r\n" + pairs + "set group all type 2\nrun 0\n"}
+    for name, change in changes.items():
+        said = lmp.run_well(text + change + f"write_dump all custom second {COLUMNS}\n", folder)
+        before, after = (max(lmp.read_dump(folder / f).items())[1][1][10] for f in ("first", "second"))
+        at_most(f"{law}, {name}: friction before", abs(abs(before) / (5e3 * spring) - 1), 1e-10)
+        expected = 2.5e3 * spring if OTHER[law] else 0
+        at_most(f"{law}, {name}: friction", abs(abs(after) - expected), 5e3 * more if "lists" in name else 1e-10)
+        fact(f"{law}, {name}: said", ("begin anew" in said) == (OTHER[law] is not True), said[-500:])
 
 
 # ---- LAMMPS 4Jul2026 ------------------------------------------------------------------------
@@ -563,6 +628,29 @@ def test_as_granular(folder):
         theirs = states(folder, ours(law, style="granular"), steps=10, every=5, name="theirs")
         own = states(folder, ours(law), steps=10, every=5)
         at_most(law, lmp.largest_difference(theirs, own), 1e-12)
+
+
+@lmp.of_host
+def test_types_change_in_a_run(folder):
+    """Fix set changes types in the middle of a run: the contact begins anew, and slips R w t on both sides from then on."""
+    other = "hertz 1e4 0 tangential mindlin/force 5e3 0 1 damping velocity"
+    for newton, every in (("off", 1), ("on", 1), ("off", 100)):
+        lmp.run_well(lmp.head("0 4 0 4 0 4", types=2, newton=newton) + f"""\
+neigh_modify delay 0 every {every} check no
+create_atoms 1 single 1 2 2
+create_atoms 1 single 1.98 2 2
+set group all diameter 1 density 1
+set group all omega 0 0 0.1
+{ours("1 1 " + DISPLACEMENT, "2 2 " + other, "1 2 " + DISPLACEMENT)}
+variable type atom 1+(step>=500)
+fix change all set 1 0 group all type v_type
+fix i all nve/noforce
+timestep 1e-4
+{dump("out", 1000)}run 1000
+""", folder)
+        radius = (0.25 * 0.02)**0.5    # of the contact, sqrt(R_eff overlap)
+        expected = 5e3 * radius * 2 * 0.5 * 0.1 * 0.05
+        at_most(f"newton {newton}, lists each {every}: friction", abs(abs(lmp.read_dump(folder / "out")[1000][1][10]) / expected - 1), 1e-10)
 
 
 @lmp.of_host

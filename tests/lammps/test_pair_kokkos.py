@@ -15,7 +15,7 @@ import lmp
 import stl
 from facts import at_most, fact
 from test_pair_energy import CLOUD, CLOUD_HEAD, CLOUD_LAWS, books, same
-from test_pair_granular import COLUMNS, DT, FULL, GRANULAR, SIDE, dump, grains, ours, script, settings
+from test_pair_granular import COLUMNS, DT, FULL, GRANULAR, IN_A_SLICE, SIDE, SLICES, dump, grains, ours, script, settings
 
 pytestmark = lmp.needs_host
 PLAIN = ()    # flags: without Kokkos
@@ -115,6 +115,29 @@ def test_many_laws(folder):
                "1 3 jkr 1e4 5 0.3 3 tangential mindlin 1e3 0.5 0.4", "2 3 " + FULL]
     for name, laws in (("one kind", one), ("several kinds", several)):
         as_plain(name, folder, script(ours(*laws), data="three.data"), ranks=(1, 2))
+
+
+@pytest.mark.parametrize("slice", SLICES)
+def test_narrow_box(folder, slice):
+    """A grain that touches two images of another, or of itself, has two springs."""
+    box, atoms = SLICES[slice]
+    rest = IN_A_SLICE.format(pair=ours("* * law hooke/history 1e4 5e3 0 0 100 0"), atoms=atoms)
+    for newton, lists in (("off", LISTS), ("on", LISTS[:1])):
+        as_plain(f"{slice}, newton {newton}", folder, lmp.head(box, "p p p", newton=newton) + rest + dump("out", 500) + "run 1000\n", ranks=(1, 2), lists=lists)
+
+
+def test_types_change(folder):
+    """Types change between runs and in a run, with new lists and without: contacts whose law keeps other numbers begin anew."""
+    laws = ours("1 1 " + GRANULAR, "2 2 " + FULL, "3 3 law hooke/history 1e4 NULL 30 NULL 0.4 1", "1 2 law hooke 1e4 NULL 30 NULL 0.4 1", "1 3 " + FULL, "2 3 " + FULL)
+    change = "variable type{0} atom 1+(id+floor(id/{0}))%3\nset group all type v_type{0}\n"
+    between = change.format(5) + "run 20\n" + change.format(7) + "run 20 pre no\n"
+    restart = "write_restart r\nclear\n" + settings() + "read_restart r\n" + laws + "\n" + change.format(7) + \
+        f"fix i all nve/sphere\ntimestep {DT}\n" + dump("out", 20) + "run 20\n"
+    as_plain("between runs", folder, script(laws, data="three.data") + between)
+    as_plain("after a restart", folder, script(laws, data="three.data") + restart)
+    for every in (1, 30):
+        more = f"neigh_modify delay 0 every {every} check no\nneighbor 0.5 bin\nvariable type atom 1+((id+floor(step/20))%3)\nfix change all set 1 0 group all type v_type"
+        as_plain(f"in a run, lists each {every}", folder, script(laws, data="three.data", more=more))
 
 
 def test_restart(folder):

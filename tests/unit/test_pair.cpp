@@ -350,6 +350,16 @@ TEST(pairs, keep_momentum_and_with_arms_to_the_contact_angular_momentum)
   }
 }
 
+// What partners are told of grains that have one law and one image.
+struct Known {
+  unsigned of_law;
+
+  Partners::Name name(int i) const { return 1000 + i; }
+  unsigned flips(int, int) const { return of_law; }
+  int kind(int, int) const { return 0; }
+  Vec3 offset(int, int) const { return {}; }
+};
+
 // A pair that is listed the other way round, with what it keeps as the other grain sees it, has the same forces.
 TEST(pairs, do_not_depend_on_which_grain_comes_first)
 {
@@ -363,14 +373,13 @@ TEST(pairs, do_not_depend_on_which_grain_comes_first)
       a.step();
       b.step();
     }
-    const auto name = [](int i) { return Partners::Name(1000 + i); };
-    Partners partners(a.history[0].width());
+    const PartnerForm form = {a.history[0].width()};
+    const Known known = {law.flips()};
+    Partners partners(form);
     partners.grow(b.n);
-    if (partners.width() > 0)
-      partners.collect(b.list(), b.history[b.now], b.n, name,
-                       [&](int, int) { return law.flips(); });
+    if (partners.width() > 0) partners.collect(b.list(), b.history[b.now], b.n, form, known);
     b.set_list(true);
-    if (partners.width() > 0) partners.hand_out(b.list(), b.history[b.now], name);
+    if (partners.width() > 0) partners.hand_out(b.list(), b.history[b.now], 0, 3, known);
     a.step();
     b.step();
     const Real most = largest(a.force), turning = largest(a.torque);
@@ -534,7 +543,7 @@ TEST(pairs, of_several_laws_have_each_its_own)
 
 TEST(partners, go_in_a_message_as_they_are)
 {
-  Partners a(4), b(4);
+  Partners a({4}), b({4});
   a.grow(2);
   b.grow(2);
   const Real numbers[] = {2, 7, 1, 2, 3, 4, 9, 5, 6, 7, 8};
@@ -549,6 +558,98 @@ TEST(partners, go_in_a_message_as_they_are)
   EXPECT_EQ(b.count(0), 4);
   EXPECT_EQ(b.name(0, 3), 9);
   EXPECT_EQ(b.numbers(0, 3)[3], 8);
+}
+
+// Grain 0 has a row with two others.
+struct OneRow {
+  int grain[3] = {0, 1, 2}, length[3] = {2, 0, 0}, row[2] = {1, 2};
+  const int *rows[3] = {row, row, row};
+  PairHistory history;
+
+  PairList list() const { return {3, grain, length, rows, 0x3fffffff, 30}; }
+  // Both pairs touch, and keep these numbers.
+  void keep(const std::vector<Real> &first, const std::vector<Real> &second)
+  {
+    const std::size_t keys[] = {0, 1};
+    history.begin(static_cast<int>(first.size()));
+    history.append(keys, 2);
+    for (std::size_t k = 0; k < first.size(); k++) {
+      history.column(static_cast<int>(k))[0] = first[k];
+      history.column(static_cast<int>(k))[1] = second[k];
+    }
+  }
+  std::vector<Real> kept(std::size_t pair) const
+  {
+    std::vector<Real> numbers;
+    for (int k = 0; k < history.width(); k++) numbers.push_back(history.column(k)[pair]);
+    return numbers;
+  }
+};
+
+// Grains 1 and 2 are images of one grain, at these places on an axis; grain 0 is at 0.
+struct Images {
+  Real place[3];
+
+  Partners::Name name(int i) const { return i == 0 ? 1 : 7; }
+  unsigned flips(int, int) const { return 7; }
+  int kind(int, int) const { return 0; }
+  Vec3 offset(int i, int j) const { return {0, place[i] - place[j], 0}; }
+};
+
+TEST(partners, tell_images_of_one_grain_apart)
+{
+  OneRow pairs;
+  pairs.keep({1, 2, 3}, {4, 5, 6});
+  Partners partners;
+  partners.grow(3);
+  partners.collect(pairs.list(), pairs.history, 1, {3, false, true}, Images{{0, 0.95, -0.95}});
+  std::vector<Real> message(static_cast<std::size_t>(partners.packed_size(0)));
+  EXPECT_EQ(partners.pack(0, message.data()), 1 + 2 * 7);
+  partners.unpack(0, message.data());
+  partners.hand_out(pairs.list(), pairs.history, 0.95, 3, Images{{0.1, -0.84, 1.04}});
+  EXPECT_EQ(pairs.kept(0), (std::vector<Real>{4, 5, 6}));
+  EXPECT_EQ(pairs.kept(1), (std::vector<Real>{1, 2, 3}));
+  // There is one of them only, and it is not in contact.
+  pairs.length[0] = 1;
+  partners.hand_out(pairs.list(), pairs.history, 0.95, 3, Images{{0, 1.9, 0}});
+  EXPECT_EQ(pairs.history.size(), 0u);
+}
+
+// The laws of grain 0 with 1 and 2 are of these kinds.
+struct Kinds {
+  int of[3];
+
+  Partners::Name name(int i) const { return i; }
+  unsigned flips(int, int) const { return 0; }
+  int kind(int, int j) const { return of[j]; }
+  Vec3 offset(int, int) const { return {}; }
+};
+
+TEST(partners, give_no_numbers_to_a_law_of_another_kind)
+{
+  OneRow pairs;
+  pairs.keep({1, 2, 3, 8}, {4, 5, 6, 9});
+  Partners partners;
+  partners.grow(3);
+  partners.collect(pairs.list(), pairs.history, 1, {4, true}, Kinds{{0, 10, 20}});
+  EXPECT_FALSE(partners.hand_out(pairs.list(), pairs.history, 0, 3, Kinds{{0, 10, 20}}));
+  EXPECT_EQ(pairs.kept(0), (std::vector<Real>{1, 2, 3, 8}));
+  EXPECT_TRUE(partners.hand_out(pairs.list(), pairs.history, 0, 3, Kinds{{0, 10, 10}}));
+  EXPECT_EQ(pairs.kept(0), (std::vector<Real>{1, 2, 3, 8}));
+  EXPECT_EQ(pairs.kept(1), (std::vector<Real>{0, 0, 0, 9}));    // it touches as before
+}
+
+TEST(partners, go_to_any_law_and_image_where_a_file_does_not_say_of_which_they_are)
+{
+  OneRow pairs;
+  Partners partners({3});
+  partners.grow(3);
+  const Real numbers[] = {1, 7, 1, 2, 3};
+  partners.unpack(0, numbers);
+  partners.set_form({3, true, true});
+  EXPECT_FALSE(partners.hand_out(pairs.list(), pairs.history, 0.95, 3, Images{{0, 0.95, -0.95}}));
+  ASSERT_GE(pairs.history.size(), 1u);
+  EXPECT_EQ(pairs.kept(0), (std::vector<Real>{1, 2, 3}));
 }
 
 TEST(pair_coeff, refuses_what_is_not_served_with_a_reason)

@@ -35,7 +35,7 @@ struct Row : GrainRows {
       for (int k = 0; k < kListed; k++) neighbor[kListed * i + k] = i + 1 + k;
     }
     engine.grow(kGrains);
-    engine.hand_out(list(), {name.data(), false});
+    engine.hand_out(list(), {{name.data(), false}});
   }
 
   void step(Real apart)
