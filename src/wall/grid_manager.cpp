@@ -158,7 +158,7 @@ void GridManager::log_build(const MeshPart &m, Real old_cutoff, std::int64_t ste
     t += "grid for radius " + number_text(grid.cutoff()) +
          (m.nodes() ? ", made again as nodes move" : "\n" + grid.grid_text());
   else if (grid.cutoff() > old_cutoff)
-    t += "larger particles, grid rebuilt for radius " + number_text(grid.cutoff());
+    t += "larger grains, grid rebuilt for radius " + number_text(grid.cutoff());
   else
     t += "the box has changed, grid rebuilt at step " + std::to_string(step) +
          " (more of these in this run are counted at its end)";
@@ -181,7 +181,7 @@ void GridManager::check_wrapping(const Spheres &spheres)
       std::all_of(meshes_.begin(), meshes_.end(), [this](const MeshPart &m) { return fits(m); });
   if (out_warned_ || all_fit) return;    // nothing of the wall is there
   out_warned_ = true;
-  host_.warn("a particle was " + number_text(out) +
+  host_.warn("a grain was " + number_text(out) +
              " past a periodic face before it was wrapped, more than the " + host_.names().margin +
              " " + number_text(now.margin) + ": contacts there may have been missed; " +
              host_.names().wrap_sooner +

@@ -206,8 +206,8 @@ def test_radii_grow(folder):
                             f"fix adapt {name} the wall: radii grow as with wall/gran",
                             head("1") + begin + fixes + DUMP + "run 1500\n")
     # 10 % each time from 0.5 past 0.75: 1.1^5 = 1.61.
-    fact("the log tells of each grid", text.count("larger particles, grid rebuilt") == 5,
-         str(text.count("larger particles, grid rebuilt")))
+    fact("the log tells of each grid", text.count("larger grains, grid rebuilt") == 5,
+         str(text.count("larger grains, grid rebuilt")))
 
 
 @pytest.mark.skipif(lmp.ON_KOKKOS, reason="the hosts have no RIGID")

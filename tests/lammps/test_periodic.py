@@ -102,7 +102,7 @@ def test_larger_spheres(folder):
                          more="run 10\ncreate_atoms 1 single 9.9 7 0.5 units box\nset atom 2 diameter 1 density 2"),
                    folder)
     fact("the grid is built anew for a larger sphere, whatever reaches past the faces",
-         done.returncode == 0 and "larger particles, grid rebuilt for radius 0.55" in done.stdout)
+         done.returncode == 0 and "larger grains, grid rebuilt for radius 0.55" in done.stdout)
 
 
 def test_hills(folder):
@@ -228,4 +228,4 @@ def test_scales(folder):
     fact("a forgotten scale is named", "far larger than the box" in done.stdout
          and "add scale 0.001" in done.stdout)
     fact("what no particle can touch stops the run",
-         done.returncode != 0 and "no particle in the box can touch the mesh" in done.stdout)
+         done.returncode != 0 and "no grain in the box can touch the mesh" in done.stdout)

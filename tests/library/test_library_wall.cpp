@@ -171,7 +171,7 @@ TEST_F(wall, acts_through_a_periodic_face_and_warns_past_it)
   grains.x[2] = 20.3;
   grains.step(wall);
   ASSERT_EQ(shown.warnings.size(), 1u);
-  EXPECT_TRUE(begins(shown.warnings[0], "a particle was 0.3 past a periodic face"));
+  EXPECT_TRUE(begins(shown.warnings[0], "a grain was 0.3 past a periodic face"));
 }
 
 TEST_F(wall, refuses_numbers_that_it_did_not_save)

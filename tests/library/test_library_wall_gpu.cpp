@@ -519,7 +519,7 @@ TEST_F(wall_gpu, acts_through_a_periodic_face_and_warns_past_it)
   one.x[2] = 20.3;
   copies.step(wall, one, step_of());
   ASSERT_EQ(shown.warnings.size(), 1u);
-  EXPECT_TRUE(begins(shown.warnings[0], "a particle was 0.3 past a periodic face"));
+  EXPECT_TRUE(begins(shown.warnings[0], "a grain was 0.3 past a periodic face"));
 }
 
 TEST_F(wall_gpu, tells_of_a_sphere_in_the_next_call)

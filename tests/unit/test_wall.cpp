@@ -326,7 +326,7 @@ TEST_F(wall, warns_once_where_spheres_of_its_group_went_past_a_periodic_face)
     scene.x[1].x = x;
     scene.wall->check_wrapping(s);
     ASSERT_EQ(scene.host.warnings.size(), 1u);
-    EXPECT_TRUE(begins(scene.host.warnings[0], "a particle was 0.5 past a periodic face"));
+    EXPECT_TRUE(begins(scene.host.warnings[0], "a grain was 0.5 past a periodic face"));
   }
 }
 

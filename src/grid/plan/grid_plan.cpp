@@ -143,7 +143,7 @@ GridPlan plan_grid(const WeldedMesh &mesh, const AnyGridSettings &settings)
 {
   if (!(settings.cutoff > 0) || !std::isfinite(settings.cutoff))
     throw InputError("grid cutoff is " + number_text(settings.cutoff) +
-                     "; it must be the largest particle radius, above 0");
+                     "; it must be the largest radius of a grain, above 0");
   // A billionth of the mesh: smaller cells cannot be numbered, and the smallest numbers do not grow.
   const Real least = Real(0x1p-30) * norm(mesh.report.hi - mesh.report.lo);
   const Real length =

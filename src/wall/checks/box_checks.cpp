@@ -136,7 +136,7 @@ void BoxChecks::check_within_cutoff(const MeshPart &m, const PeriodicBox &box)
 {
   if (!m.grid.out_of_reach()) return;
   const std::string what =
-      named(m, "no particle in the box can touch the mesh: it spans " + extents_text(m.bounds(0)) +
+      named(m, "no grain in the box can touch the mesh: it spans " + extents_text(m.bounds(0)) +
                    ", the box " + extents_text(box.bounds({0, 0, 0})) +
                    likely_scale_text(extents(m), box));
   if (!box.any_follows()) throw InputError(what + "; check scale and move");

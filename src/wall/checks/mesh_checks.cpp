@@ -67,7 +67,7 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
   if (!(r.lo.z < 0 && r.hi.z > 0))
     throw InputError(with_mesh_name(
         settings, m.index,
-        "in two dimensions particles move in the plane z = 0, which the mesh does not "
+        "in two dimensions grains move in the plane z = 0, which the mesh does not "
         "cut: it spans z from " +
             number_text(r.lo.z) + " to " + number_text(r.hi.z) + "; draw the outline out along z" +
             (r.lo.z < r.hi.z ? ", and put its middle at z = 0 (move 0 0 " +
