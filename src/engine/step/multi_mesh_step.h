@@ -95,12 +95,38 @@ LSDCD_FN QuerySphereWith<SpringsInFrame> in_frame_of(const StepJob &job, const M
   return seen;
 }
 
-// Takes contact c out; the others keep their order. `end`: of the contacts of n meshes.
-template <int kCapacity>
-LSDCD_FN void remove_contact(ContactSet<kCapacity> &all, int c, int *end, int n)
+// A contact with a mesh.
+struct MeshContact {
+  FeatureCode feature;
+  Real distance;    // length; below 0: an overlap
+  Vec3 closest;    // its closest point, or the way from there to a point, which is the same for all
+};
+
+// Does a contact of the n-th mesh stay beside those of the meshes before it, which end at `end`? Two contacts with the same closest
+// point are one. It is the nearer one; if both are equally near, a face before an edge before a vertex; if these are equal, that
+// of the earlier mesh. Calls remove(b) for those that go, which keeps the others in order. at(b) returns a MeshContact.
+template <class At, class Remove>
+LSDCD_FN bool outlasts_earlier(const MeshContact &later, Real tolerance, int *end, int n,
+                               const At &at, const Remove &remove)
 {
-  for (int m = 0; m < n; m++)
-    if (end[m] > c) end[m]--;
+  for (int b = n > 0 ? end[n - 1] - 1 : -1; b >= 0; b--) {
+    const MeshContact earlier = at(b);
+    if (!is_same_point(earlier.closest - later.closest, tolerance)) continue;
+    if (!(later.distance < earlier.distance ||
+          (later.distance == earlier.distance &&
+           feature_kind(later.feature) < feature_kind(earlier.feature))))
+      return false;
+    for (int m = 0; m < n; m++)
+      if (end[m] > b) end[m]--;
+    remove(b);
+  }
+  return true;
+}
+
+// Takes contact c out; the others keep their order.
+template <int kCapacity>
+LSDCD_FN void remove_contact(ContactSet<kCapacity> &all, int c)
+{
   all.n--;
   for (; c < all.n; c++) {
     all.feature[c] = all.feature[c + 1];
@@ -110,8 +136,7 @@ LSDCD_FN void remove_contact(ContactSet<kCapacity> &all, int c, int *end, int n)
 }
 
 // Adds the contacts of the n-th mesh, whose normals `turn` takes to the frame of the others, to those of the meshes before it,
-// which end at `end`. Two contacts with the same closest point are one. It is the nearer one; if both are equally near, a
-// face before an edge before a vertex; if these are equal, that of the earlier mesh.
+// which end at `end`.
 template <int kCapacity, class Turn>
 LSDCD_FN void add_mesh(const Turn &turn, const ContactSet<kCapacity> &of_mesh, Real tolerance,
                        ContactSet<kCapacity> &all, int *end, int n)
@@ -119,18 +144,13 @@ LSDCD_FN void add_mesh(const Turn &turn, const ContactSet<kCapacity> &of_mesh, R
   for (int c = 0; c < of_mesh.n; c++) {
     const Vec3 normal = turn(of_mesh.normal[c]);
     const Real distance = of_mesh.distance[c];
-    bool is_new = true;
-    for (int b = n > 0 ? end[n - 1] - 1 : -1; b >= 0 && is_new; b--) {
-      const Vec3 apart = all.distance[b] * all.normal[b] - distance * normal;
-      if (!is_same_point(apart, tolerance)) continue;
-      if (distance < all.distance[b] ||
-          (distance == all.distance[b] &&
-           feature_kind(of_mesh.feature[c]) < feature_kind(all.feature[b])))
-        remove_contact(all, b, end, n);
-      else
-        is_new = false;
-    }
-    if (is_new) all.add(of_mesh.feature[c], normal, distance);
+    if (outlasts_earlier(
+            {of_mesh.feature[c], distance, distance * normal}, tolerance, end, n,
+            [&](int b) -> MeshContact {
+              return {all.feature[b], all.distance[b], all.distance[b] * all.normal[b]};
+            },
+            [&](int b) { remove_contact(all, b); }))
+      all.add(of_mesh.feature[c], normal, distance);
   }
 }
 

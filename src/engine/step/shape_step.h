@@ -174,24 +174,17 @@ class ShapeAtMeshes {
     }
   }
 
-  // Adds a contact of mesh m. One of another mesh at the same place is the same: the deeper of both stays, of equal ones that
-  // of the lower kind of feature.
+  // Adds a contact of mesh m, if no earlier mesh has the same.
   void add(const GrainContact &c, int m)
   {
-    const Pose &pose = settings(m).pose;
-    for (int b = m > 0 ? ends_[m - 1] - 1 : -1; b >= 0; b--) {
-      const GrainContact &other = memory_.contacts[b];
-      const Pose &its = settings(mesh_of(b)).pose;
-      const Vec3 apart = its.to_box(other.foot) - pose.to_box(c.foot);
-      if (!is_same_point(apart, tolerance_)) continue;
-      if (c.overlap < other.overlap ||
-          (c.overlap == other.overlap && feature_kind(c.feature) >= feature_kind(other.feature)))
-        return;
-      memory_.contacts.erase(memory_.contacts.begin() + b);
-      for (int k = 0; k < m; k++)
-        if (ends_[k] > b) ends_[k]--;
-    }
-    memory_.contacts.push_back(c);
+    std::vector<GrainContact> &all = memory_.contacts;
+    const auto seen = [&](const GrainContact &of, int mesh) -> MeshContact {
+      return {of.feature, -of.overlap, settings(mesh).pose.to_box(of.foot)};
+    };
+    if (outlasts_earlier(
+            seen(c, m), tolerance_, ends_, m, [&](int b) { return seen(all[b], mesh_of(b)); },
+            [&](int b) { all.erase(all.begin() + b); }))
+      all.push_back(c);
   }
   int mesh_of(int contact) const
   {
