@@ -157,7 +157,7 @@ void GrainRows::put(const lsdcd_spheres &given, Spheres &s)
                  *inertia = given.inertia + 3 * at;
     GrainShape &row = shapes_[i];
     row.half = {half[0], half[1], half[2]};
-    if (norm_sq(row.half) == 0) continue;
+    if (row.half == Vec3{0, 0, 0}) continue;
     if (given.exponents) {
       row.n1 = given.exponents[2 * at];
       row.n2 = given.exponents[2 * at + 1];

@@ -18,10 +18,10 @@ class ShapesMade {
   Superellipsoid get(const Vec3 &half, Real n1, Real n2)
   {
     if (n1 == 2 && n2 == 2) return make_superellipsoid(half, n1, n2);
+    check_shape(half, n1, n2);    // of what is no number, or all below 0, a key would be found
     const std::array<Real, 4> key = {half.y / half.x, half.z / half.x, n1, n2};
     auto at = made_.find(key);
     if (at == made_.end()) {
-      make_superellipsoid(half, 2, 2);    // checks the half-axes
       if (made_.size() >= kMost) made_.clear();
       at = made_.emplace(key, make_superellipsoid({1, key[0], key[1]}, n1, n2)).first;
     }

@@ -223,6 +223,19 @@ TEST_F(Shape, is_refused_by_a_sentence_where_it_makes_none)
   s.exponents = exponents + 2;
   refused(grid.get(), s, LSDCD_ERROR_INPUT,
           "grain 0: an exponent of a shape is 30: exponents are from 2, an ellipsoid, to 20");
+  // Grain 0 has the exponents and the proportions of what follows, or numbers that are neither less nor more.
+  s.one_shape = 0;
+  const double ones[] = {1, 1, 1, 1, 1, 1}, below[] = {1, 1, 1, -1, -1, -1},
+               no_length[] = {1, 1, 1, NAN, 1, 1}, fours[] = {4, 4, 4, 4},
+               no_exponent[] = {4, 4, NAN, 4};
+  s.exponents = fours;
+  s.half_axes = below;
+  refused(grid.get(), s, LSDCD_ERROR_INPUT, "grain 1: a half-axis of a shape is -1");
+  s.half_axes = no_length;
+  refused(grid.get(), s, LSDCD_ERROR_INPUT, "grain 1: a half-axis of a shape is nan");
+  s.half_axes = ones;
+  s.exponents = no_exponent;
+  refused(grid.get(), s, LSDCD_ERROR_INPUT, "grain 1: an exponent of a shape is nan");
   lsdcd::GridOptions nearest(kCutoff);
   nearest.nearest = 4;
   s.exponents = nullptr;

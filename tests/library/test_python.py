@@ -264,6 +264,12 @@ def test_shapes_at_walls():
          np.allclose(torque, [[0, -10 * 1.5 / height, 0], [0, 0, 0]], rtol=0, atol=1e-11), (force, torque))
     fact("exponents of 2 are those of an ellipsoid",
          np.array_equal(step(wall_of(shapes=True), **shapes, exponents=np.full((2, 2), 2.0)), (force, torque)))
+    boxes = {**shapes, "exponents": np.array([[4.0, 6], [2, 2]])}
+    pushed = step(wall_of(shapes=True), **boxes)
+    for name, rows in boxes.items():
+        columns = np.insert(rows, rows.shape[1], 7, axis=1)[:, :-1]
+        fact(f"{name} in the first columns of a table are those of each grain",
+             np.array_equal(step(wall_of(shapes=True), **{**boxes, name: columns}), pushed))
     each = wall_of(shapes=True, each_contact=True)
     step(each, **shapes)
     wrong = {"half_axes": np.array([[2.0, 1, 1], [-1, 1, 1]]), "quaternions": np.array([[1, 0, 0, 0]] * 2), "inertia": np.ones((2, 3))}
@@ -281,6 +287,8 @@ def test_shapes_at_walls():
     refused("an inertia of 0", "inertia[0] is 0 0 0", lambda: step(wall_of(shapes=True), **{**shapes, "inertia": np.zeros((2, 3))}), lsdcd.Error)
     refused("a half-axis below 0", "grain 0: a half-axis of a shape is -1",
             lambda: step(wall_of(shapes=True), **{**shapes, "half_axes": np.array([[2.0, -1, 1], [0, 0, 0]])}), lsdcd.Error)
+    refused("half-axes whose squares are 0", "grain 1: a half-axis of a shape is 1e-200",
+            lambda: step(wall_of(shapes=True), **{**shapes, "half_axes": np.array([[2.0, 1, 1], [1e-200] * 3])}), lsdcd.Error)
     refused("shapes with one side", "`side`: ellipsoids have a wall with both sides alone", lambda: wall_of(shapes=True, side="out"),
             lsdcd.Error)
 

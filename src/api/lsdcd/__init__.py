@@ -824,7 +824,7 @@ class Wall(_Owner):
         to a new array of zeros, and both are appended to `added`."""
         array = _arrays.read(values, name, _arrays.stream_handle(self._stream)) if _is_array(values) else None
         kind = np.dtype(np.int32 if name == "type" else np.float64)
-        packed = (3, 1)[2 - len(shape):]
+        packed = (*shape[1:], 1)
         wrong_type = array is None or array.dtype != kind
         if array is None or wrong_type or array.shape != shape or array.steps(len(shape) - 1) != packed:
             if added is not None and not self._on_device and array is not None and array.on_host and array.shape == shape:
