@@ -34,6 +34,12 @@ from converter.errors import CannotConvert
 from converter.script import Script
 
 
+def is_named(script, out):
+    """Whether a file is the script, one of its include, or has a name that is a word of theirs."""
+    names = {script.path.name} | {name for line in script.lines for name in (line.file, *line.words)}
+    return os.path.realpath(out) in {os.path.realpath(script.path.parent / name.strip("\"'")) for name in names}
+
+
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("script", type=Path, help="input script of LIGGGHTS")
@@ -48,6 +54,8 @@ def main():
     try:
         script = Script(a.script, a)
         text = script.convert()
+        if a.out and is_named(script, a.out):
+            raise CannotConvert(f"{a.out} is the script, or a file that it names, and would be replaced: give another name after -o")
         script.write_files()
     except (CannotConvert, OSError) as error:
         sys.exit(f"convert.py: {error}\nNothing was written.")

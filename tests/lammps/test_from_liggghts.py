@@ -653,6 +653,16 @@ def test_words(folder):
     subprocess.run([sys.executable, EXAMPLE / "convert.py", folder / "in.there", "-o", folder / "in.here"], capture_output=True)
     fact("an error leaves the older file", (folder / "in.here").read_text() == "kept")
     fact("no other file is left", {p.name for p in folder.iterdir()} == {"in.there", "in.here"})
+    (folder / "in.there").write_text("include mat.in\n" + MATERIAL + MESH.format(""))
+    (folder / "mat.in").write_text("variable a equal 1\n")
+    (folder / "a.stl").write_text("kept")
+    for name in ("in.there", "mat.in", "a.stl", "../" + folder.name + "/in.there"):
+        before = (folder / name).read_text()
+        done = subprocess.run([sys.executable, EXAMPLE / "convert.py", folder / "in.there", "-o", folder / name], capture_output=True, text=True)
+        fact(f"{name} is read, and stays", done.returncode == 1 and "would be replaced: give another name after -o\nNothing was written." in done.stderr and
+             (folder / name).read_text() == before, done.stderr)
+    for name in ("mat.in", "a.stl"):
+        (folder / name).unlink()
     help_text = subprocess.run([sys.executable, EXAMPLE / "convert.py", "--help"], text=True, capture_output=True).stdout
     fact("--help teaches", all(w in help_text for w in ("LEFT", "NOTE", "--radius", "from-liggghts.md")))
 
