@@ -110,6 +110,7 @@ int lsdcd_mesh_read(const char *file, double weld, lsdcd_mesh **mesh)
     made->welded_vertex = read.vertices.empty()
                               ? std::move(corner_vertex)
                               : vertices_at(read.vertices, read.soup.corners, corner_vertex);
+    made->file = file;
     *mesh = new lsdcd_mesh{std::move(made)};
   });
 }

@@ -22,6 +22,7 @@ namespace lsdcd {
 struct ApiMesh {
   WeldedMesh mesh;
   std::string report;
+  std::string file;    // from which it was read; empty: none
   // The vertex and face of the mesh that each vertex and triangle of the caller became; -1: none.
   std::vector<int> welded_vertex, welded_face;
 

@@ -9,6 +9,7 @@
 #include "bodies/read_pose.h"
 #include "law/sub_models.h"
 #include "output/file_series.h"
+#include "wall/spec/run_files.h"
 #include "wall/spec/settings.h"
 #include "wall/spec/spec_check.h"
 #include "wall/spec/spec_ranges.h"
@@ -332,6 +333,18 @@ void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
                  "grains that are no spheres have walls for arrays of the host alone; leave it 0");
 }
 
+// Refuses an output with the name of a file that a mesh was read from. The names of series have steps, which are not known yet.
+void check_files(const lsdcd_wall_spec &given, const WallSpec &wall)
+{
+  constexpr long long kNoMoreSteps = std::numeric_limits<long long>::max();
+  for (std::size_t k = 0; k < given.n_meshes; k++) {
+    const std::string &read = given.meshes[k].mesh->in->file;
+    if (read.empty()) continue;
+    for (const RunFile &file : files_of(wall))
+      check_apart(file, {"mesh", read}, "`" + element("meshes", k) + ".mesh`", kNoMoreSteps);
+  }
+}
+
 WallSpec read_spec(const lsdcd_wall_spec *pointer, bool on_device)
 {
   const lsdcd_wall_spec given = checked(pointer, "lsdcd_wall_spec");
@@ -348,6 +361,7 @@ WallSpec read_spec(const lsdcd_wall_spec *pointer, bool on_device)
         mesh_spec_of(checked(given.meshes + k, "lsdcd_wall_mesh", element("meshes", k)), k, wall));
   leave_out_zero_cohesion(wall);
   check_spec(wall, SpecNames::fields);
+  check_files(given, wall);
   return wall;
 }
 

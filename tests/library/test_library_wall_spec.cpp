@@ -1095,6 +1095,24 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
   }
 }
 
+TEST_F(wall_spec, writes_no_file_over_that_of_a_mesh)
+{
+  const std::string before = bytes_of(file_), folder = testing::TempDir();
+  const api::Mesh corners(std::vector<double>{-9, -9, 0, 9, -9, 0, 0, 9, 0});
+  for (const std::string &name : {file_, folder + "/./" + file_.substr(folder.size())}) {
+    Wrong wrong(*mesh_);
+    wrong.meshes[1].mesh = corners.get();
+    wrong.meshes[1].stl = name.c_str();
+    wrong.meshes[1].stl_every = 1;
+    EXPECT_TRUE(lsdcd::says(wrong.text(),
+                            {"in 'mesh_stl', '" + name + "' is ",
+                             "the mesh file that `meshes[0].mesh` reads: name another file"}));
+    wrong.meshes[0].mesh = corners.get();
+    EXPECT_EQ(wrong.text(), "");
+  }
+  EXPECT_EQ(bytes_of(file_), before);
+}
+
 // A sphere with a spring at its limit slides at the speed 2 with the force mu kn 0.03 = 15, one that is lifted has left what its spring held.
 TEST_F(wall_spec, contacts_tell_what_they_dissipate)
 {
