@@ -111,6 +111,55 @@ def test_ways_to_leave(folder):
             fact(f"{name}, {z}: it has left, and nothing was inserted", b["held"] == 0 == b["inserted"] and b["damping"] > 0.1, b)
 
 
+WAYS = {"a skin": "", "lists each 20": "neigh_modify delay 0 every 20 check no\n", "no skin": "neighbor 0 bin\n", "a dynamic group": "group near dynamic all every 1\n"}
+
+
+def test_fast_grain(folder):
+    """A grain that slides over the end of a plate and is far from it a step later has no work that is not booked."""
+    stl.write(folder / "plate.stl", stl.quad((-9, -1, 0), (1, -1, 0), (1, 1, 0), (-9, 1, 0)))
+    stl.write(folder / "other.stl", stl.quad((-9, -1, 4), (1, -1, 4), (1, 1, 4), (-9, 1, 4)))
+    for speed in (60, 400):
+        for name, way in WAYS.items():
+            for meshes in ("mesh plate.stl", "mesh plate.stl mesh other.stl"):
+                script = SPHERE.replace("-3 3 -3 3 -1 5", "-9 9 -3 3 -1 5").replace("mesh floor.stl", meshes)
+                script = script.replace("fix             wall all", f"{way}fix             wall {'near' if 'near' in way else 'all'}")
+                # The third place is at 1.05, the second to touch at least. The arm of friction is that of slip.
+                text = script.format(x=f"{1.05 - 3 * 5e-3 * speed} 0.2 0.5003", v=f"{speed} 0 -1", move="fix move all nve/sphere", law="hooke 1000 NULL 20 NULL 0.5 1",
+                                     dt="5e-3", columns=" ".join(COLUMNS), run="run 5")
+                b = row_of(lmp.run_well(text, folder))
+                where = f"speed {speed}, {name}, {meshes}"
+                # Rounded numbers of the size of the kinetic energy are subtracted.
+                at_most(f"{where}: work", abs(b["work"] - (0.5 * (speed**2 + 1) - b["ke"] - b["spin"])), 1e-15 * speed**2)
+                fact(f"{where}: it has left, and nothing was inserted", b["held"] == 0 == b["inserted"] and b["work"] > 1, b)
+
+
+def test_forces_on_fast_grains(folder):
+    """Grains that go up to twice their radius in a step touch a wall at the same places whatever lists there are, with and without books."""
+    stl.write(folder / "plate.stl", stl.sheet(5, lambda i, j: (-4 + 1.6 * i, -4 + 1.6 * j, 0.3 * (i % 2) * (j % 2))))
+    places = {}
+    for name, way in WAYS.items():
+        for energy in ("", " energy"):
+            lmp.run_well(lmp.head("-4 4 -4 4 -1 9") + f"""\
+create_atoms 1 random 200 4711 NULL
+set group all diameter 0.5 mass 1
+velocity all create 1e4 8177 loop geom
+pair_style zero 1.2
+pair_coeff * *
+{way}fix move all nve/sphere
+fix box all wall/reflect xlo EDGE xhi EDGE ylo EDGE yhi EDGE zlo EDGE zhi EDGE
+fix wall {'near' if 'near' in way else 'all'} wall/lsdcd hooke/history 1e5 NULL 20 NULL 0.5 1 mesh plate.stl{energy}
+timestep 1e-3
+dump d all custom 200 out id x y z vx vy vz fx fy fz omegax omegay omegaz
+dump_modify d format float %.17g sort id
+run 200
+""", folder)
+            places[name + energy] = lmp.read_dump(folder / "out")
+    first = places.pop("no skin")
+    fact("grains turn", sum(row[9] != 0 for row in first[200].values()) > 20, "")
+    for name, there in places.items():
+        at_most(name, lmp.largest_difference(first, there), 0)
+
+
 def test_many_setups(folder):
     """A grain that slips, rolls and twists as it bounces on a slope: what it holds does not change where a run begins anew, so that nothing
     is inserted, and books of 40 runs close as those of one."""

@@ -19,10 +19,12 @@
 #include "support/says.h"
 #include "support/sphere_arrays.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <gtest/gtest.h>
 #include <random>
+#include <type_traits>
 
 using namespace lsdcd;
 
@@ -371,7 +373,7 @@ TEST(engine, the_bricks_of_a_choice_with_a_margin_leave_out_none_that_its_cells_
   const FlatOf<StepGrid> flat(build_grid(weld(box_mesh({-10, -10, -10}, {10, 10, 10}), -1), g));
   const GridView grid = flat.view();
   const std::vector<BrickWord> words = brick_words(grid);
-  CandidateTest<true> choice = {};
+  CandidateTest<true, false> choice = {};
   choice.grid = grid;
   choice.table = BrickTable(words, words.data());
   choice.filter = BrickFilter<Real>(grid);
@@ -415,21 +417,28 @@ TEST(engine, a_selection_by_flags_leaves_the_spheres_that_one_by_blocks_leaves)
   spheres.radius = radius.data();
   spheres.mask = mask.data();
   spheres.group_bit = 2;
-  for (const bool by_features : {false, true}) {
+  // Each had a contact in the last step, a third of them with this mesh.
+  std::vector<int> first(n);
+  std::vector<Spring> pool(n);
+  for (int i = 0; i < n; i++) first[i] = i, pool[i].mesh = i % 3;
+  const auto check = [&](bool by_features, auto closes) {
     StepCounts counts = {};
     std::vector<int> springs[2] = {std::vector<int>(n, 1), std::vector<int>(n, 1)}, left[2];
     const auto choice = [&](int k) {
-      return CandidateTest<false>{grid.view,
-                                  grid.table,
-                                  BrickFilter<Real>(grid.view),
-                                  spheres,
-                                  Pose(),
-                                  0.05,
-                                  0,
-                                  0,
-                                  by_features,
-                                  &counts,
-                                  springs[k].data()};
+      return CandidateTest<false, closes()>{
+          grid.view,
+          grid.table,
+          BrickFilter<Real>(grid.view),
+          spheres,
+          Pose(),
+          0.05,
+          0,
+          0,
+          by_features,
+          &counts,
+          springs[k].data(),
+          {{first.data()}, {springs[k].data()}, pool.data(), nullptr},
+          0};
     };
     std::uint32_t total[2] = {0, 0};
     for (std::vector<int> &to : left) to.resize(n);
@@ -439,8 +448,19 @@ TEST(engine, a_selection_by_flags_leaves_the_spheres_that_one_by_blocks_leaves)
     EXPECT_EQ(left[1], left[0]);
     EXPECT_EQ(springs[1], springs[0]);
     EXPECT_GT(total[0], 1000u);
-    EXPECT_LT(total[0], 10000u);
+    EXPECT_LT(total[0], closes() ? 13000u : 10000u);
     EXPECT_EQ(counts.too_large, 0u);
+    for (int i = 0; i < n; i++) {
+      const bool is_left = std::binary_search(left[0].begin(), left[0].end(), i);
+      ASSERT_EQ(springs[0][i] != 0, is_left);
+      if (closes() && i % 3 == 0) {
+        ASSERT_EQ(is_left, mask[i] == 2) << i;
+      }
+    }
+  };
+  for (const bool by_features : {false, true}) {
+    check(by_features, std::false_type());
+    check(by_features, std::true_type());
   }
 }
 

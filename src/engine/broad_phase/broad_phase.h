@@ -16,23 +16,30 @@
 
 namespace lsdcd {
 
+// How candidates of a mesh are chosen; see CandidateTest.
+struct CandidateChoice {
+  Spheres spheres;
+  Real margin, pull_off;
+  StepCounts *counts;
+  int *n_springs;
+  const SpringsView *last;    // null: nothing closes contacts
+  std::uint32_t mesh;
+};
+
 template <class B>
 class CandidateSelector {
  public:
   const int *data() const { return candidates_.data(); }
 
-  // Selects the spheres that could touch the mesh after moving by up to `margin`: by its cells and, where cells list
-  // all within the cutoff, by the features of these. Kernels put the number into `counts`. `n_springs`: of each sphere, or
-  // null; becomes 0 for spheres that are no candidates.
-  void choose(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin, Real pull_off,
-              StepCounts *counts, int *n_springs)
+  // Selects the spheres that could touch the mesh after moving by up to the margin: by its cells and, where cells list
+  // all within the cutoff, by the features of these. Kernels put the number into the counts.
+  void choose(B &b, const EngineMesh<B> &mesh, const CandidateChoice &choice)
   {
-    const Real past = excess_margin(mesh.grid.view, margin);
-    candidates_.reserve(spheres.n);
-    if (past > 0)
-      select<true>(b, mesh, spheres, margin, past, pull_off, counts, n_springs);
+    candidates_.reserve(choice.spheres.n);
+    if (excess_margin(mesh.grid.view, choice.margin) > 0)
+      choice.last ? select<true, true>(b, mesh, choice) : select<true, false>(b, mesh, choice);
     else
-      select<false>(b, mesh, spheres, margin, past, pull_off, counts, n_springs);
+      choice.last ? select<false, true>(b, mesh, choice) : select<false, false>(b, mesh, choice);
   }
 
   std::size_t bytes() const { return candidates_.size() * sizeof(int) + selection_.bytes(); }
@@ -40,16 +47,19 @@ class CandidateSelector {
  private:
   using Array = typename B::template Array<int>;
 
-  template <bool kPast>
-  void select(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin, Real past,
-              Real pull_off, StepCounts *counts, int *n_springs)
+  template <bool kPast, bool kCloses>
+  void select(B &b, const EngineMesh<B> &mesh, const CandidateChoice &choice)
   {
     const GridView &grid = mesh.grid.view;
-    CandidateTest<kPast> test = {
-        grid, mesh.grid.table, BrickFilter<Real>(grid),      spheres, mesh.pose, margin,
-        past, pull_off,        grid.list_kind.is_complete(), counts,  n_springs};
+    const Real past = excess_margin(grid, choice.margin);
+    CandidateTest<kPast, kCloses> test = {
+        grid,           mesh.grid.table,  BrickFilter<Real>(grid),
+        choice.spheres, mesh.pose,        choice.margin,
+        past,           choice.pull_off,  grid.list_kind.is_complete(),
+        choice.counts,  choice.n_springs, choice.last ? *choice.last : SpringsView(),
+        choice.mesh};
     test.fixed_margin = test.filter.margin(past * grid.inv_length / kBrickSide);
-    selection_.run(b, spheres.n, test, candidates_.data(), &counts->n_candidates);
+    selection_.run(b, choice.spheres.n, test, candidates_.data(), &choice.counts->n_candidates);
   }
 
   Array candidates_;
@@ -87,15 +97,16 @@ class BroadPhase {
   const EngineMesh<B> &mesh(int m) const { return meshes_[m]; }
 
   // Selects candidates among spheres in memory of the backend, and makes their lists. With one mesh
-  // `n_springs` of other spheres becomes 0. Where a sphere is too large, too_large is set in the counts
-  // returned and nothing else is valid.
+  // `n_springs` of other spheres becomes 0. `last`: null, or of the last step, whose contacts are closed. Where a sphere is too
+  // large, too_large is set in the counts returned and nothing else is valid.
   StepCounts choose(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts,
-                    int *n_springs)
+                    int *n_springs, const SpringsView *last)
   {
-    if (uses_slots()) return choose_slots(b, spheres, margin, counts);
+    if (uses_slots()) return choose_slots(b, spheres, margin, counts, last);
     const GridView &grid = meshes_[0].grid.view;
     CandidateSpheres candidates = {spheres.x, spheres.radius, pull_off_, nullptr, 0};
-    selector_.choose(b, meshes_[0], spheres, margin, pull_off_, counts.data(), n_springs);
+    selector_.choose(b, meshes_[0],
+                     {spheres, margin, pull_off_, counts.data(), n_springs, last, 0});
     b.copy_out(counts.data(), counts_on_cpu_.data(), 1);
     counted_.record(b);
     // A GPU need not wait until the CPU knows how many there are.
@@ -165,12 +176,15 @@ class BroadPhase {
     return posed_.data();
   }
 
-  StepCounts choose_slots(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts)
+  StepCounts choose_slots(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts,
+                          const SpringsView *last)
   {
     StepCounts seen = {};
     slots_.clear(b, spheres.n);
+    std::uint32_t number = 0;
     for (const EngineMesh<B> &mesh : meshes_) {
-      selector_.choose(b, mesh, spheres, margin, pull_off_, counts.data(), nullptr);
+      selector_.choose(b, mesh,
+                       {spheres, margin, pull_off_, counts.data(), nullptr, last, number++});
       seen = read_one(b, counts.data());
       if (seen.too_large) return seen;
       slots_.add(b, selector_.data(), seen.n_candidates);

@@ -64,8 +64,9 @@ struct CandidateSpheres {
   }
 };
 
-// kPast: do cells past the lists' own margin matter?
-template <bool kPast>
+// kPast: do cells past the lists' own margin matter? kCloses: spheres that had contacts with the mesh in the last step are candidates
+// wherever they are now, as books of energy close these contacts.
+template <bool kPast, bool kCloses>
 struct CandidateTest {
   GridView grid;
   BrickTable table;
@@ -77,6 +78,8 @@ struct CandidateTest {
   bool by_features;      // test the features that cells list, too
   StepCounts *counts;    // too_large becomes the first sphere that reaches past the grid
   int *n_springs;        // of each sphere, or null; becomes 0 for spheres that are no candidates
+  SpringsView last;      // of the last step; read where kCloses
+  std::uint32_t mesh;
   std::uint32_t fixed_margin = 0;    // of the filter
 
   struct Item {
@@ -135,6 +138,16 @@ struct CandidateTest {
   // On a CPU: what refine() of a large wall reads first.
   LSDCD_FN void prefetch(const Vec3 &x) const { prefetch_search(grid, pose, x); }
 
+  // Is sphere i a candidate even if it cannot touch the mesh?
+  LSDCD_FN bool closes([[maybe_unused]] std::size_t i, [[maybe_unused]] const Item &item) const
+  {
+    if constexpr (kCloses) {
+      if (!in_group(item)) return false;
+      for (int k = 0; k < last.count[i]; k++)
+        if (last.pool[last.first[i] + k].mesh == mesh) return true;
+    }
+    return false;
+  }
   // Notes that sphere i is no candidate.
   LSDCD_FN void note_out(std::size_t i) const
   {

@@ -11,7 +11,7 @@ namespace lsdcd {
 //                                 for n. *total, where kernels run, becomes how many. May return before it is so.
 //   bytes()                       that it holds
 // For each sphere: check() with the result of read(), then coarse_test(). If that passes: is_near(). If that passes and
-// has_refine(): refine(). note_out() gets each sphere that fails.
+// has_refine(): refine(). One that fails passes all the same where closes() says so; note_out() gets the others.
 template <class B, bool kOnCpu = B::kOnCpu>
 class Selection;
 

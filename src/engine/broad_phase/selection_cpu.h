@@ -38,7 +38,7 @@ class Selection<B, true> {
         const Vec3 x = work.centres()[i];
         const auto item = work.read(i);
         work.check(i, item);
-        const bool passes = work.coarse_test(item, x) && work.is_near(x);
+        const bool passes = (work.coarse_test(item, x) && work.is_near(x)) || work.closes(i, item);
         if (passes)
           to[lo + count++] = static_cast<int>(i);
         else
@@ -65,7 +65,8 @@ class Selection<B, true> {
     for (int k = 0; k < n; k++) {
       if (k + kAhead < n) work.prefetch(work.centres()[spheres[k + kAhead]]);
       const int i = spheres[k];
-      if (work.refine(Warp<1>(), true, i))
+      const auto sphere = static_cast<std::size_t>(i);
+      if (work.refine(Warp<1>(), true, i) || work.closes(sphere, work.read(sphere)))
         spheres[n_passed++] = i;
       else
         work.note_out(i);

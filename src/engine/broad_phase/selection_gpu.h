@@ -24,7 +24,7 @@ struct FlagByCells {
     const auto item = work.read(i);
     work.check(i, item);
     const Vec3 x = work.centres()[i];
-    const bool passes = work.coarse_test(item, x) && work.is_near(x);
+    const bool passes = (work.coarse_test(item, x) && work.is_near(x)) || work.closes(i, item);
     if (!passes) work.note_out(i);
     flags[i] = passes;
   }
@@ -41,8 +41,9 @@ struct FlagByFeatures {
   LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
     const int i = left[k];
-    const bool passes = work.refine(warp, mine, i);
+    bool passes = work.refine(warp, mine, i);
     if (!mine) return;
+    passes = passes || work.closes(i, work.read(i));
     if (!passes) work.note_out(i);
     flags[k] = passes;
   }

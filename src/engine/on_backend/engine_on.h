@@ -85,12 +85,9 @@ class EngineOn : public WallEngine {
       const Spheres spheres = mirror_ ? mirror_->bring_for_choice(b_, host) : host;
       results_.detach_from_candidates(b_);
       springs_.grow(spheres.n);
-      Real within = margin;
-      // Books close the contacts of a sphere in the step in which it has left the mesh, where a host tells no margin, too. It does not
-      // go a tenth of the largest radius in a step.
-      if (law_.traits.energy)
-        within = std::max(within, Real(0.1) * broad_phase_.mesh(0).grid.view.cutoff);
-      make_room(spheres, broad_phase_.choose(b_, spheres, within, counts_, springs_.count()));
+      const SpringsView last = springs_.view();
+      make_room(spheres, broad_phase_.choose(b_, spheres, margin, counts_, springs_.count(),
+                                             law_.traits.energy ? &last : nullptr));
       if (mirror_) mirror_->make_room(b_, broad_phase_, spheres.n);
       // A spring on a mesh of which its sphere is no candidate is of no use, and would be read as one on another.
       if (broad_phase_.uses_slots())
