@@ -662,7 +662,8 @@ typedef struct lsdcd_wall_mesh {
   const char *cache;      /* file that stores its grid; null: none */
   /* Files that are written every so many steps, with a '*' for the step in each one's name; null: none. `fields`,
    * .vtp: stress, contacts and wear of each triangle, with `energy` what is dissipated there, with `impact_speed` impacts, for
-   * ParaView. `stl`: the mesh where it is. `spectrum`, .csv, with `impact_speed`: see lsdcd_wall_impacts. None may be one that a mesh was read from. */
+   * ParaView. `stl`: the mesh where it is. `spectrum`, .csv, with `impact_speed`: see lsdcd_wall_impacts. None may be one
+   * that a mesh was read from. */
   const char *fields, *stl, *spectrum;
   int fields_every, stl_every, spectrum_every;
   int nodes_by_caller; /* 1: lsdcd_wall_set_nodes() moves each of its vertices, and nothing else moves it. Exact, in
