@@ -264,7 +264,8 @@ def test_shapes_at_walls():
          np.allclose(torque, [[0, -10 * 1.5 / height, 0], [0, 0, 0]], rtol=0, atol=1e-11), (force, torque))
     fact("exponents of 2 are those of an ellipsoid",
          np.array_equal(step(wall_of(shapes=True), **shapes, exponents=np.full((2, 2), 2.0)), (force, torque)))
-    boxes = {**shapes, "exponents": np.array([[4.0, 6], [2, 2]])}
+    boxes = {"half_axes": np.array([[2.0, 1, 1], [0.5, 0.6, 0.5]]), "exponents": np.array([[4.0, 6], [3, 2.5]]),
+             "quaternions": np.array([[0.8, 0, 0.6, 0], [0.9, 0.3, 0.2, 0.1]]), "inertia": np.array([[0.4, 1, 1], [0.2, 0.1, 0.3]])}
     pushed = step(wall_of(shapes=True), **boxes)
     for name, rows in boxes.items():
         columns = np.insert(rows, rows.shape[1], 7, axis=1)[:, :-1]
