@@ -446,8 +446,9 @@ void ShapeSearch::look_at_plane(const PlacedGrain &grain, NearFeatures &near, st
   const Real same = kSameFoot * s.farthest;
   const bool is_elsewhere = is_outside(plane, foot, {same, same, same});
   if (!(overlap < s.rho)) {
-    at.is_owned =
-        !is_elsewhere && gauge_value(s, grain.own_point(foot)) < 1 && has_foot(near, i, point);
+    at.is_owned = !is_elsewhere && gauge_value(s, grain.own_point(foot)) < 1 &&
+                  has_foot(near, i, point) &&
+                  (has_all_cut(grain, near, i) || !is_shallow(s, grain.own_point(foot)));
     // On the ray to the point of the surface, so that it is in the grain.
     if (!at.is_owned)
       return look_at_deep_plane(grain, near, i,
@@ -455,6 +456,16 @@ void ShapeSearch::look_at_plane(const PlacedGrain &grain, NearFeatures &near, st
                                     (std::fabs(height) / (std::fabs(height) + overlap)) * at.arm);
   }
   if (!is_elsewhere) find_foot(grain, near, i);
+}
+
+// Have the faces of a plane, with a place in the grain, all that the grain cuts of it? Then it is past the plane, and not past the end of
+// the faces alone.
+bool ShapeSearch::has_all_cut(const PlacedGrain &grain, const NearFeatures &near, std::size_t i)
+{
+  for (std::uint32_t r = near.rim_begin(i); r < near.planes[i].rim_end; r++)
+    for (const std::uint32_t edge : near.rim[r].edge)
+      if (edge < near.edges.size() && is_edge_cut(grain, near, edge)) return false;
+  return true;
 }
 
 // Notes the faces of a plane that the grain may cut. `section`: a point of the plane that is in the grain.

@@ -127,6 +127,7 @@ class ShapeSearch {
   void list_faces_at(NearFeatures &near) const;
   bool find_by_owner(const PlacedGrain &grain, NearFeatures &near);
   void look_at_plane(const PlacedGrain &grain, NearFeatures &near, std::size_t i, const Vec3 &half);
+  bool has_all_cut(const PlacedGrain &grain, const NearFeatures &near, std::size_t i);
   void look_at_deep_plane(const PlacedGrain &grain, const NearFeatures &near, std::size_t i,
                           const Vec3 &section);
   void find_foot(const PlacedGrain &grain, NearFeatures &near, std::size_t i);

@@ -48,10 +48,21 @@ LSDCD_FN bool is_minimum(const Superellipsoid &s, const TangentMinimum &t)
   return there.is_sure && fabs(there.distance - t.distance) <= 4 * on_surface(s);
 }
 
-// Is it that of a contact: by the highest bound, at a foot in the grain? To be asked where the overlap is not less than rho; else it is.
+// Is a point in the grain less deep than rho? Then the signed distance has one gradient there, and that of a deeper tangent over it is
+// another one.
+LSDCD_FN bool is_shallow(const Superellipsoid &s, const Vec3 &y)
+{
+  // The inscribed sphere around the centre holds one around y.
+  if (!((1 - gauge_value(s, y)) * s.nearest < s.rho)) return false;
+  const SurfacePoint p = nearest_on_surface(s, y);
+  return p.is_sure && -p.distance < s.rho;
+}
+
+// Is it that of a contact: by the highest bound, at a foot in the grain, and there not less deep than rho? To be asked where the overlap
+// is not less than rho; else it is.
 LSDCD_FN bool is_contact(const Superellipsoid &s, const TangentMinimum &t)
 {
-  return t.is_highest && gauge_value(s, t.foot) < 1;
+  return t.is_highest && gauge_value(s, t.foot) < 1 && !is_shallow(s, t.foot);
 }
 
 // Returns the tangent plane over the plane through y with the unit normal n.
@@ -458,7 +469,7 @@ class TriangleMinimum {
     return find_by_tangent(plane, below);
   }
   // Returns the minimum as a contact has it, if it is less than 0: at any depth that of the tangent over the plane if its foot is
-  // here, or in another triangle of the plane (`is_owned`), and in the grain, and likewise that over a side. It counts as smooth.
+  // here, or in another triangle of the plane (`is_owned`), and is_contact(), and likewise that over a side. It counts as smooth.
   // Elsewhere, where the overlap is not less than rho, its normal is that of the gradient.
   LSDCD_FN ShapeMinimum find_contact(bool is_owned)
   {

@@ -7,6 +7,7 @@ Overlaps are rounded by 1e-15 of sizes of 1, which the least eigenvalue, 0.1, ma
 a grain, which is 0.01 at least.
 """
 import functools
+import math
 import pathlib
 import tempfile
 
@@ -267,3 +268,19 @@ def test_fields_of_triangles():
     on_triangles = np.sum(np.reshape(rows["force"], (-1, 3)), axis=0)
     on_grains = sum(f.sum(axis=0) for f in forces)
     at_most("forces of triangles add up", np.abs(on_triangles + on_grains).max() / (len(forces) * max(np.abs(f).max() for f in forces)), EXACT)
+
+
+def test_rows_of_deep_contacts():
+    """The overlap in a row is that of the force, also where a rod is deeper in a plane than its least radius of curvature, 0.2."""
+    square = np.array([[-40, -40, 0], [40, -40, 0], [40, 40, 0], [-40, 40, 0]], float)
+    law = lsdcd.Law("hooke", kn=KN, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
+    wall = lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]]))], shapes=True, each_contact=True))
+    tilt, overlap = 0.8, np.array([0.1, 0.3, 0.6, 0.9, 1.15])    # the foot of the last one is outside of the rod
+    n, height = len(overlap), math.hypot(5 * math.cos(tilt), math.sin(tilt))
+    x = np.column_stack([np.zeros((n, 2)), height - overlap])
+    still, force, torque = np.zeros((3, n, 3))
+    wall.step(x, still, still, np.zeros(n), np.ones(n), force, torque, DT, half_axes=np.tile([1.0, 1, 5], (n, 1)), inertia=np.ones((n, 3)),
+              quaternions=np.tile([math.cos(tilt / 2), 0, math.sin(tilt / 2), 0], (n, 1)))
+    rows = wall.contacts()
+    at_most("overlaps of rows, by the forces", np.abs(rows.overlap - force[:, 2] / KN).max(), 1e-13)
+    at_most("and by how deep the lowest point is, while the foot is in the rod", np.abs(rows.overlap - overlap)[:4].max(), 1e-13)

@@ -580,6 +580,55 @@ TEST(grain_folds, rest_on_rails_and_points_with_the_force_of_each)
   EXPECT_GE(on_four.at(at, {}).force.z, 4 * 0.97 * on_first.at(at, {}).force.z);
 }
 
+// z = -|x| w. The sides of a ridge fall along (1, 0, -w) and (-1, 0, -w).
+TriangleSoup ridge(Real w)
+{
+  return soup_of({{0, -40, 0},
+                  {0, 40, 0},
+                  {-40, -40, -40 * w},
+                  {-40, 40, -40 * w},
+                  {40, -40, -40 * w},
+                  {40, 40, -40 * w}},
+                 {{0, 1, 3}, {0, 3, 2}, {0, 5, 1}, {0, 4, 5}});
+}
+// A pyramid with its tip at the origin, whose four edges fall by w in 1 along x and y.
+TriangleSoup pyramid(Real w)
+{
+  return soup_of(
+      {{0, 0, 0}, {40, 0, -40 * w}, {0, 40, -40 * w}, {-40, 0, -40 * w}, {0, -40, -40 * w}},
+      {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}});
+}
+
+// The tip of a convex wall is d below the point of an ellipsoid whose normal n points into the wall, between those of its sides: then that is
+// the one place where the distance has a minimum, however far the ellipsoid reaches over the sides.
+TEST(grain_folds, touch_a_ridge_and_a_tip_there_alone_up_to_the_least_radius_of_curvature)
+{
+  Random random(3);
+  for (const Vec3 &half : {Vec3{1, 1, 5}, {5, 5, 1}, {1.2, 0.4, 0.7}})
+    for (const Real w : {0.5, 1., 2., 5.})
+      for (const bool is_ridge : {true, false}) {
+        Evaluated grain(is_ridge ? ridge(w) : pyramid(w), half);
+        for (int i = 0; i < 200; i++) {
+          Vec3 n;
+          do {
+            n = random_unit(random);
+            if (is_ridge) n = unit({n.x, 0, n.z});
+          } while (!(-w * n.z > 1.001 * std::fmax(std::fabs(n.x), std::fabs(n.y))));
+          const Quaternion turn = random_turn(random);
+          const Vec3 own = rotate(inverse(turn), n),
+                     u = {half.x * own.x, half.y * own.y, half.z * own.z};
+          const Vec3 point =
+              rotate(turn, (1 / norm(u)) * Vec3{half.x * u.x, half.y * u.y, half.z * u.z});
+          const Real d = uniform(random, 0.01, 0.99) * grain.shape.rho;
+          const Pushed is = grain.at(d * n - point, turn);
+          ASSERT_EQ(is.contacts, 1) << i << " " << w;
+          // Rounding of lengths of 5.
+          ASSERT_LT(norm(is.force + d * n), 1e-13) << i << " " << w;
+          ASSERT_LT(norm(is.torque + d * cross(point, n)), 1e-12) << i << " " << w;
+        }
+      }
+}
+
 TEST(grain_folds, press_a_plane_with_one_contact_at_any_depth_however_it_is_cut)
 {
   for (const int pieces : {1, 2, 3, 4, 5, 7, 9, 12, 17, 30}) {

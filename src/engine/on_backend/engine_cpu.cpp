@@ -58,9 +58,9 @@ class Shapes {
     }
   }
 
-  // Returns the overlap of a contact of the last step: the depth of the wall's point in the grain, or, where that is not less than the
-  // least radius of curvature, the overlap with the plane of a face or about an edge. Where the depth was not found to rounding, the
-  // next read of the diagnostics is an error.
+  // Returns the overlap of a contact of the last step: where it is not less than the least radius of curvature that with the plane of a
+  // face or about an edge, if the wall's point is the foot of that; else how deep the point is in the grain. Where the depth was not found
+  // to rounding, the next read of the diagnostics is an error.
   Real overlap(const TouchingSphere &of, const StepContact &contact, const Pose &pose)
   {
     const Superellipsoid &shape = work.shape[of.sphere];
@@ -68,20 +68,26 @@ class Shapes {
       return rotate(inverse(work.turn[of.sphere]), pose.turn_to_box(in_mesh));
     };
     const Vec3 point = to_own(-contact.arm);
-    const SurfacePoint nearest = nearest_on_surface(shape, point);
-    if (!nearest.is_sure) raise_to(&work.unsure, kNoSphere - of.sphere);
-    if (-nearest.distance < shape.rho) return -nearest.distance;
+    const auto is_foot_of = [&](const TangentMinimum &t) {
+      constexpr Real kSame = 1e-9;    // of the gauge
+      return t.is_highest && !(-t.distance < shape.rho) &&
+             gauge_value(shape, point - t.distance * t.normal) <= 1 + kSame;
+    };
     const TreeView &view = work.trees[contact.mesh]->view();
     const std::uint32_t i = feature_index(contact.feature);
-    if (feature_kind(contact.feature) == FeatureKind::face)
-      return -tangent_over_plane(shape, point,
-                                 to_own(view.primitives[view.face_primitive[i]].normal))
-                  .distance;
+    if (feature_kind(contact.feature) == FeatureKind::face) {
+      const TangentMinimum plane =
+          tangent_over_plane(shape, point, to_own(view.primitives[view.face_primitive[i]].normal));
+      if (is_foot_of(plane)) return -plane.distance;
+    }
     if (feature_kind(contact.feature) == FeatureKind::edge) {
       const Vec3 along =
           to_own(view.vertices[view.edges[2 * i + 1]] - view.vertices[view.edges[2 * i]]);
-      return -TangentAboutLine(shape, point, (1 / norm(along)) * along).find().distance;
+      const TangentMinimum line = TangentAboutLine(shape, point, (1 / norm(along)) * along).find();
+      if (is_foot_of(line)) return -line.distance;
     }
+    const SurfacePoint nearest = nearest_on_surface(shape, point);
+    if (!nearest.is_sure) raise_to(&work.unsure, kNoSphere - of.sphere);
     return -nearest.distance;
   }
 
