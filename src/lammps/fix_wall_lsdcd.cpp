@@ -317,7 +317,9 @@ void FixWallLsdcd::init()
   if (spec().has_bodies()) init_bodies();
   for (const int k : wall->inputs_read()) find_variable(spec().inputs[k]);
   wall->begin_run(update->ntimestep, thermo_virial);
-  if (callbacks) ask_for_most_room();    // of fixes that are made after it, too
+  // For fixes that are made after it, too. The exchange before setup(), and commands, may send all atoms of a process, and in messages of
+  // Kokkos each takes all this room.
+  if (callbacks) make_exchange_room();
   check_files_apart(*this, *lmp, host);
   init_nodes();
   if (doubled_warned) return;

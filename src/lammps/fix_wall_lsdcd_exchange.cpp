@@ -63,9 +63,9 @@ int FixWallLsdcd::unpack_exchange(int i, double *buf)
 // largest of all processes.
 void FixWallLsdcd::make_exchange_room()
 {
-  int largest = history_on_cpu().largest_packed_size();
+  int largest = has_history() ? history_on_cpu().largest_packed_size() : 0;
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
-  ask_for_room(1 + largest);    // and its offset, which messages of Kokkos tell
+  ask_for_room(has_history() ? 1 + largest : 0);    // and its offset, which messages of Kokkos tell
 }
 
 // `history_takes`: numbers that the history of one atom takes at most. LAMMPS's Irregular has room
@@ -85,7 +85,7 @@ void FixWallLsdcd::ask_for_room(int history_takes)
   for (FixWallLsdcd *one : walls) one->maxexchange = all;
 }
 
-// For atoms that LAMMPS moves to other processes whenever it likes: outside of runs, and in
+// For atoms that LAMMPS moves to other processes whenever it likes: in commands that do not begin with init(), and in
 // the pre_exchange() of a fix before this one. No sphere has more contacts than this.
 void FixWallLsdcd::ask_for_most_room()
 {

@@ -67,3 +67,14 @@ def test_room_of_other_fixes(folder):
         rooms = [tuple(map(int, row)) for row in re.findall(r"room for (\d+), packed (\d+)", out)]
         fact(f"{law}: all fixes find room for what they pack", len(rooms) > 10 and max(packed for _, packed in rooms) > 10 and
              all(packed <= room for room, packed in rooms), rooms[:20])
+
+
+@pytest.mark.skipif(lmp.ON_HOST, reason="the preloaded module is of the LAMMPS that is installed")
+def test_room_between_runs(folder):
+    """A command that sends atoms between runs finds room for the contacts that are there, and not for the most that an atom may have."""
+    text = scene.SETTINGS + "read_data start.data\n" + scene.forces(LAWS["granular"]) + "run 400\nbalance 1.0 shift x 10 1.0\nrun 0\nbalance 1.0 rcb\n"
+    out = lmp.run_well(text.replace("read_data", "comm_style tiled\nread_data"), folder, 2, env={"LD_PRELOAD": os.environ["LSDCD_EXCHANGE_ROOM"]})
+    rooms = [tuple(map(int, row)) for row in re.findall(r"room for (\d+), packed (\d+)", out)]
+    most = max(packed for _, packed in rooms)
+    fact("atoms have contacts", most > 10, str(rooms))
+    fact("there is room, and for no more than the atom with most contacts", all(packed <= room <= most + 3 for room, packed in rooms), str(rooms))
