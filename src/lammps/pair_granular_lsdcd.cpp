@@ -5,6 +5,7 @@
 
 #include "base/input_words.h"
 #include "input/pair_words.h"
+#include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/fix_springs_lsdcd.h"
 #include "lammps/host_atoms.h"
 #include "lammps/host_box.h"
@@ -294,6 +295,8 @@ void PairGranularLsdcd::check_order() const
   for (Fix *fix : lsdcd::host_fixes(*modify)) {
     if (fix == springs) return;
     if (!(fix->setmask() & FixConst::PRE_EXCHANGE)) continue;
+    const auto *flow = dynamic_cast<const FixMassflowLsdcd *>(fix);
+    if (flow && !flow->deletes()) continue;
     for (const char *style : {"evaporate", "deposit", "pour", "insert/lsdcd", "massflow/lsdcd"})
       if (std::strncmp(fix->style, style, std::strlen(style)) == 0)
         fatal("fix " + std::string(fix->id) + " " + style +

@@ -336,8 +336,9 @@ def test_order_of_pairs(folder):
                         "create_atoms 1 single 0 0 0\nset group all diameter 0.3 density 1\nfix i all nve/sphere\nrun 0\n", folder,
                         # With Kokkos "granular" is ours, which says so itself.
                         "Pair style granular/lsdcd" if lmp.ON_KOKKOS and law else "Fix early", "write pair_style before th")
-    for fix, pairs in ((out, "gran/hooke 1e4 NULL 5 NULL 0.5 1"), (out.replace(" delete yes", ""), "gran/hooke/history 1e4 NULL 5 NULL 0.5 1")):
-        lmp.run_well(GRAINS + f"fix early all {fix}\npair_style {pairs}\npair_coeff * *\ncreate_atoms 1 single 0 0 0\n"
+    counts, law = out.replace(" delete yes", ""), "hooke/history 1e4 NULL 5 NULL 0.5 1"
+    for fix, pairs, words in ((out, "gran/hooke 1e4 NULL 5 NULL 0.5 1", ""), (counts, f"gran/{law}", ""), (counts, "granular/lsdcd", f"law {law}")):
+        lmp.run_well(GRAINS + f"fix early all {fix}\npair_style {pairs}\npair_coeff * * {words}\ncreate_atoms 1 single 0 0 0\n"
                      "set group all diameter 0.3 density 1\nfix i all nve/sphere\nrun 0\n", folder)
 
 
