@@ -163,9 +163,10 @@ void ComputeCollideLsdcd::init()
   evaluated_at = -1;    // atoms may have been moved since
 }
 
+// What a variable has asked for as the step began is of that time: LAMMPS has cleared the flags since.
 void ComputeCollideLsdcd::evaluate()
 {
-  if (evaluated_at == update->ntimestep) return;
+  if (invoked_flag != INVOKED_NONE && evaluated_at == update->ntimestep) return;
   const FixWallLsdcd &fix = wall();
   const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
   const std::vector<double> sums = gather_sums();

@@ -129,10 +129,12 @@ void ComputeEnergyLsdcd::compute_vector()
   *next++ = all.rows[EnergyRow::drive];
 }
 
+// A vector that a variable has asked for as the step began is of that time: LAMMPS has cleared its flag since.
 double ComputeEnergyLsdcd::compute_scalar()
 {
   invoked_scalar = update->ntimestep;
-  if (invoked_vector != update->ntimestep) compute_vector();
+  const bool has_vector = (invoked_flag & INVOKED_VECTOR) && invoked_vector == update->ntimestep;
+  if (!has_vector) compute_vector();
   const double *const of = vector + kNumbers - 5;
   scalar = of[0] + of[1] + of[2] + of[3] - of[4];
   return scalar;

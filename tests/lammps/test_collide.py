@@ -156,6 +156,18 @@ compute         c cubes lsdcd/collide wall mesh cube.stl move -3 0.1 1.5 bodies 
 
 
 @RANKS
+def test_read_as_a_step_begins(folder, ranks):
+    """Outputs are of the whole step, though the floor's motion reads the compute as the step begins: it rises into a cube at rest."""
+    write_data(folder / "cubes.data", [([0.3, -0.2, 0.8], turn([1, 2, 3], 0.7), [0, 0, 0], [0, 0, 0])])
+    stl.write(folder / "cube.stl", CUBE @ turn([1, 2, 3], 0.7).T + [0.3, -0.2, 0.8])
+    moving = WALL + " motion variable NULL NULL v_z NULL NULL v_vz\n"
+    text = begin() + "variable z equal 2*step*dt+0*{reads}\nvariable vz equal 2.0\n" + moving + "compute c cubes lsdcd/collide wall mesh cube.stl\n" + \
+        "thermo_style custom step c_c c_c[1] c_c[1][2]\nthermo 1\nrun 60\n"
+    rows = [lmp.read_thermo(lmp.run_well(text.replace("{reads}", reads), folder, ranks)) for reads in ("step", "c_c")]
+    fact(f"{ranks} ranks: a variable that reads pairs changes no output", rows[0] == rows[1] and len({row[2] for row in rows[0]}) > 3, str(rows[0][::10]))
+
+
+@RANKS
 def test_image(folder, ranks):
     """A plate near the upper face in x meets the image of a body at the lower one; where that face is
     not periodic it meets nothing."""

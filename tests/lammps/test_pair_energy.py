@@ -9,6 +9,7 @@ import re
 import pytest
 
 import lmp
+import stl
 from facts import at_most, fact
 from test_energy import CAUSES, E, OTHERS, check_bounces, close, jkr_force, nothing_but
 
@@ -312,6 +313,20 @@ def test_ball_mill(folder):
         at_most("the balance changes by the remainder", abs(r["change"] + r["remainder"]), (math.pi / r["steps"]) ** 2 / 4)
         if r["steps"] == 150:
             at_most("remainder over the work of the drive", abs(r["remainder"]), 1e-4)
+
+
+def test_read_as_a_step_begins(folder):
+    """The balance alone is that of the whole step, though the speed of a belt reads books as the step begins."""
+    stl.write(folder / "belt.stl", stl.square(3, -0.49))
+
+    def run(reads):
+        belt = f"variable speed equal 0.3+0*{reads}\nfix belt all wall/lsdcd hooke 1e4 NULL 20 NULL 0.5 1 mesh belt.stl surface_vel v_speed 0 0 energy\n"
+        text = lmp.head("-3 3 -3 3 -3 3") + TWO.format(law="law hooke 1e4 NULL 20 NULL 0.5 1", dt=1e-3, b="0.98 0 0",
+                                                       move="fix move all nve/sphere\nfix pull all gravity 10 vector 0 0 -1", run="") + belt
+        shown = "thermo_style custom step c_books\nthermo_modify format float %.17g norm no\nthermo 1\nrun 20\n"
+        return lmp.read_thermo(lmp.run_well(text + shown, folder))
+    rows = run("step")
+    fact("a variable that reads books changes no output", run("c_books[22]") == rows and len({row[1] for row in rows}) > 5, str(rows))
 
 
 def test_refusals(folder):
