@@ -12,6 +12,7 @@
 #include "lammps/host_atoms.h"
 #include "lammps/host_box.h"
 #include "lammps/host_fixes.h"
+#include "lammps/host_respa.h"
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
 #include "lammps/other_fixes.h"
@@ -222,12 +223,13 @@ lsdcd::Box FixInsertLsdcd::zone() const
 
 int FixInsertLsdcd::setmask()
 {
-  return PRE_EXCHANGE | POST_RUN |
+  return PRE_EXCHANGE | POST_RUN | PRE_FORCE_RESPA |
          (kHostTellsTimestep ? 0 : INITIAL_INTEGRATE | INITIAL_INTEGRATE_RESPA);
 }
 
 void FixInsertLsdcd::init()
 {
+  n_levels = 0;
   const std::string late = late_pair_springs(*this, *modify);
   if (!late.empty()) fatal(late);
   check_temperature();
@@ -461,6 +463,21 @@ void FixInsertLsdcd::set_properties(int m) const
 #endif
 }
 
+// LAMMPS gives new atoms forces of each level of run_style respa that others had there. At this time of a step atom->f is free: each
+// level begins with its own.
+void FixInsertLsdcd::clear_levels(int n_new) const
+{
+  if (n_new == 0) return;
+  auto *const respa = reinterpret_cast<Respa *>(update->integrate);
+  const int first = 3 * (atom->nlocal - n_new), last = 3 * atom->nlocal;
+  for (int level = 0; level < n_levels; level++) {
+    respa->copy_flevel_f(level);
+    std::fill(atom->f[0] + first, atom->f[0] + last, 0.0);
+    if (atom->torque_flag) std::fill(atom->torque[0] + first, atom->torque[0] + last, 0.0);
+    respa->copy_f_flevel(level);
+  }
+}
+
 // IDs are given in the order in which grains are placed, so that they do not depend on the number of processes.
 void FixInsertLsdcd::create(const std::vector<Insertion::Placed> &placed)
 {
@@ -492,6 +509,7 @@ void FixInsertLsdcd::create(const std::vector<Insertion::Placed> &placed)
     modify->create_attribute(m);
     made++;
   }
+  clear_levels(static_cast<int>(made));
   MPI_Allreduce(MPI_IN_PLACE, &made, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (made != n)
     fatal("of " + std::to_string(n) + " grains " + std::to_string(made) +

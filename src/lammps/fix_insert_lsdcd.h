@@ -28,6 +28,7 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   int setmask() override;
   void init() override;
   void setup(int) override;
+  void setup_pre_force_respa(int, int level) override { n_levels = level + 1; }
   void initial_integrate(int) override;
   void initial_integrate_respa(int, int, int) override;
   void pre_exchange() override;
@@ -62,6 +63,7 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   bool told = false;    // in this run, that grains have no place
   bool seed_warned = false;
   double schedule_dt = 0;
+  int n_levels = 0;    // of run_style respa; 0 under verlet
 
   void read_face();
   void find_region();
@@ -76,6 +78,7 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   void check_temperature() const;
   void warn_of_seed(const std::vector<Fix *> &fixes);
   void set_properties(int) const;
+  void clear_levels(int n_new) const;
   std::string late_text(const std::string &, const lsdcd::Refused &) const;
   std::string inserted_text() const;
   std::string no_room_text(double radius, int tries) const;

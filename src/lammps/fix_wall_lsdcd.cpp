@@ -10,6 +10,7 @@
 #include "lammps/host_atoms.h"
 #include "lammps/host_box.h"
 #include "lammps/host_fixes.h"
+#include "lammps/host_respa.h"
 #include "lammps/other_fixes.h"
 #include "lammps/own_wall_gran.h"
 #include "wall/spec/spec_text.h"
@@ -31,10 +32,6 @@
 #include "update.h"
 #include "variable.h"
 
-#if __has_include("respa.h")
-#include "respa.h"
-#endif
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -42,19 +39,6 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-
-#if !__has_include("respa.h")
-// LAMMPS does not install respa.h. These two functions have had this name since
-// 2005 and no data of the class is touched. It may go when the oldest host that is
-// built against (29Sep2021) installs respa.h with its other headers.
-namespace LAMMPS_NS {
-class Respa {
- public:
-  void copy_f_flevel(int);
-  void copy_flevel_f(int);
-};
-}    // namespace LAMMPS_NS
-#endif
 
 FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallBackend &place) :
     Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "wall/lsdcd")

@@ -12,6 +12,7 @@ import re
 import resource
 
 import numpy
+import pytest
 
 import lmp
 import stl
@@ -274,6 +275,29 @@ print           "inserted $(f_in[1])"
         said = lmp.run_well(text.format(setup), folder)
         fact(f"pre {setup}: grains of 0.05 + 0.2 of time", "\ninserted 250\n" in said, said[-300:])
         fact(f"pre {setup}: the second run tells its own", said.count("grains of mass") == 2, said[-2000:])
+
+
+@pytest.mark.skipif(lmp.ON_KOKKOS, reason="there is no respa with Kokkos")
+def test_levels_of_respa(folder):
+    """Grains that come in a step of respa have no force yet, though an atom that was pushed has left its place to them."""
+    text = lmp.head("0 4 0 4 0 4", "f f f") + "create_atoms 1 single 2 2 0.1\nset group all diameter 0.1 density 1\ngroup first id 1\n" + END + """timestep 0.001
+fix             push first addforce 0 0 -5
+fix             pull all gravity 10 vector 0 0 -1
+region          top block 0 4 0 4 3 4
+fix             in all insert/lsdcd region top numberrate 50 diam one 0.1 dens 1 vel 0 0 -1
+thermo_modify   lost ignore
+{}
+dump            d all custom 1 grains id vz
+dump_modify     d sort id format float %.17g
+run             60
+"""
+    v = []
+    for style in ("", *(f"run_style respa {levels}\nfix_modify push respa 1" for levels in ("2 2 pair 2", "3 2 2 pair 1"))):
+        lmp.run_well(text.format(style), folder)
+        v.append(last(lmp.read_dump(folder / "grains")))
+    fact("the pushed atom has gone, and grains have come", sorted(v[0]) == [1, 2, 3], str(v[0]))
+    for levels in v[1:]:
+        at_most("velocities are those without levels", max(abs(levels[k][0] - v[0][k][0]) for k in v[0]), 1e-13)
 
 
 def test_seeds(folder):
