@@ -369,14 +369,19 @@ void FixWallLsdcd::pre_force(int vflag)
   const bool without_setup =
       update->ntimestep == update->firststep + 1 && set_up_at != update->firststep;
   if (without_setup) check_node_tags();
-  const bool anew = neighbor->ago == 0 || without_setup;
-  if (!adapts) begin(anew);
+  looks_anew = adapts || neighbor->ago == 0 || without_setup;
+  if (!begins_late()) begin(looks_anew);
 }
 
-// Fix adapt may come after this fix in pre_force.
+// Fix adapt may come after this fix in pre_force, and LAMMPS says which atoms are in dynamic groups as post_force begins.
+bool FixWallLsdcd::begins_late() const
+{
+  return adapts || group->dynamic[igroup];
+}
+
 void FixWallLsdcd::post_force(int /*vflag*/)
 {
-  if (adapts) begin(true);
+  if (begins_late()) begin(looks_anew);
   finish_step();
 }
 

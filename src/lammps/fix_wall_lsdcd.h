@@ -92,7 +92,8 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   bigint set_up_at = -1;        // the step in which a run was set up
   int nlevels_respa = 0;        // 0 under verlet
   bigint counted_atoms = -1;    // how many there were when the wall was told of new spheres
-  bool adapts = false;          // some fix changes radii: a step begins in post_force
+  bool adapts = false;          // some fix changes radii
+  bool looks_anew = false;      // there may be new spheres, or other radii, in this step
   bool rigid = false;           // some rigid fix holds atoms: damping_mass replaces rmass
   std::vector<double> damping_mass;
   std::deque<NodeAtoms> node_atoms;    // of each mesh that has nodes
@@ -121,6 +122,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   lsdcd::Step step_now() const;
   lsdcd::StepInput step_input(bool look);
   lsdcd::SphereDrift sphere_drift() const;
+  bool begins_late() const;    // does a step begin in post_force?
   bool lammps_looks_at_spheres() const;
   bool spheres_go_far() const;
   void begin(bool look);

@@ -156,6 +156,18 @@ def test_group(folder):
          thermo[0][8] == 1 and dump[0][2][2] == 0, str(thermo[0][8]))
 
 
+def test_dynamic_group(folder):
+    """A sphere that goes through the overlap with a floor feels it in the steps in which it is in the group, and in no other."""
+    move = "region right block 0 1 INF INF INF INF units box\ngroup near dynamic all region right every {}\nvariable in_group atom gmask(near)\n"
+    for every in (1, 3):
+        atoms = "create_atoms 1 single -0.0105 0 0.49 units box\n" + SPHERES + "velocity all set 1 0 0\n" + move.format(every)
+        _, dump, _ = go(folder, group="near", atoms=atoms, columns="v_in_group f_wall[1]", law="hooke 1e-4 NULL 0 NULL 0 0",
+                        extra="timestep 0.001\nfix hold all setforce 0 0 0", steps=30)
+        rows = [dump[step][1] for step in sorted(dump)]
+        fact(f"every {every}: where it is in the group, there is a contact", all(row[6] == row[7] for row in rows), str(rows[8:15]))
+        fact(f"every {every}: it joins", [row[6] for row in rows[::15]] == [0, 1, 1], str(rows))
+
+
 def test_no_atoms(folder):
     thermo, dump, text = go(folder, atoms="", steps=2)
     fact("no atoms: runs, totals are zero", not any(thermo[0][1:]))
