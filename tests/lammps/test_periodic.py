@@ -91,7 +91,7 @@ def test_over_the_seam(folder):
             stl.write(folder / "floor.stl", floor(*ends, *ends, cells))
             mesh, text = go(folder, f"wall/lsdcd {law} mesh floor.stl periodic", **kwargs)
             at_most(f"floor {name}, {law.split()[0]}: as zplane", apart(mesh, flat, 10), 1e-11)
-            fact(f"floor {name}: no warning of its ends", "periodic boundary" not in text)
+            fact(f"floor {name}: no warning of its ends", "periodic face" not in text)
 
 
 def test_larger_spheres(folder):
@@ -140,7 +140,7 @@ def test_tilted(folder):
                       box="-20 40 -5 15 -1 10", boundary="f f f")
         fact(f"tilted box, y = {y}: the sphere comes back", here[3000][1][3] < 0)
         at_most(f"tilted box, y = {y}: as without periodicity", apart(here, there, 10), 1e-10)
-    fact("a mesh past a face is warned of", "reaches past the periodic boundary in x" in text)
+    fact("a mesh past a face is warned of", "reaches past the periodic face in x" in text)
 
 
 def test_belts(folder):
@@ -148,7 +148,7 @@ def test_belts(folder):
     run = dict(x=(5, 5, 3), v=(0, 0, 0), steps=0, radius=0.02)
     stl.write(folder / "belt.stl", floor(0.005, 9.995, 4, 6, 4))
     _, text = go(folder, f"{ELASTIC} belt.stl", **run)
-    fact("ends 1 cm apart are named", "ends of the mesh do not meet across the periodic boundary in x, "
+    fact("ends 1 cm apart are named", "ends of the mesh do not meet across the periodic face in x, "
          "where its open edges face a gap of 0.01;" in text)
     screen = [t for i in range(20) for j in range(20)
               if (i % 4, j % 4) != (0, 0) for t in floor(i / 2 - 0.25, i / 2 + 0.25, j / 2, j / 2 + 0.5)]
@@ -173,7 +173,7 @@ def test_box_changes(folder):
     stl.write(folder / "floor.stl", floor(0, 10, 0, 10, 2))
     lmp.refused("a box that outgrows its periodic floor", scene(
         "wall/lsdcd hooke 2e4 NULL 20 NULL 0 0 mesh floor.stl periodic", (5, 5, 0.5), (0, 0, 0), gravity=9.81,
-        more="fix grow all deform 1 x final -1 11 remap none"), folder, "ends of the mesh do not meet across the periodic boundary in x")
+        more="fix grow all deform 1 x final -1 11 remap none"), folder, "ends of the mesh do not meet across the periodic face in x")
     # change_box between runs, the wall in the way of the new face.
     here, _ = go(folder, f"{ELASTIC} wall.stl move 9.7 0 0", (5, 5, 5), (-2, 0, 0), steps=3000, every=1,
                  more="run 100\nchange_box all x final 0 9.4 boundary p f f")
@@ -190,7 +190,7 @@ def test_parted(folder):
     change = "run 1\nchange_box all x final {}"
     for gap, to in (("0.9", "0 10.9"), ("10", "0 20"), ("90", "-40 60")):
         lmp.refused(f"a gap of {gap}", scene(wall.format("floor.stl"), (5, 0, 1), (0, 0, 0), steps=1, more=change.format(to)), folder,
-                    f"the box has changed, and the ends of the mesh do not meet across the periodic boundary in x, where its open "
+                    f"the box has changed, and the ends of the mesh do not meet across the periodic face in x, where its open "
                     f"edges face a gap of {gap};")
     lmp.refused("with larger grains", scene(wall.format("floor.stl"), (5, 0, 1), (0, 0, 0), steps=1,
                                             more=change.format("0 20") + "\nset group all diameter 1.5"), folder, "face a gap of 10;")

@@ -87,7 +87,7 @@ void BoxChecks::check_periodic(const MeshPart &m, const PeriodicBox &box) const
       axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[k]) + " by " + number_text(past);
   }
   if (axes.empty()) return;
-  host_.warn(named(m, "the mesh reaches past the periodic boundary in " + axes +
+  host_.warn(named(m, "the mesh reaches past the periodic face in " + axes +
                           ": what lies there acts inside the box as well, by its periodic images. "
                           "Add the keyword periodic if you want that, or make the boundary fixed"));
 }

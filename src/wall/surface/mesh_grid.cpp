@@ -222,7 +222,7 @@ void MeshGrid::note_ends(const WeldedMesh &whole, const PeriodicBox &before)
   if (!has_parted_ && whole.images.any())
     loose = loose_ends(whole, view().wall, box_, cutoff_, widest);
   if (loose.gap == 0) return;
-  ends_warning_ = "the ends of the mesh do not meet across the periodic boundary in " +
+  ends_warning_ = "the ends of the mesh do not meet across the periodic face in " +
                   std::string(1, "xyz"[loose.axis]) + ", where its open edges face a gap of " +
                   number_text(loose.gap) + "; make the mesh as long as the box, " +
                   number_text(box_.width(loose.axis)) + ", or let its ends overlap";
