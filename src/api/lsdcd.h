@@ -758,7 +758,7 @@ typedef struct lsdcd_wall_step {
   size_t size; /* of this struct */
   double dt;   /* time since the last step; > 0 */
   int setup; /* 1: no time has passed, and springs do not move: the forces with which a run begins */
-  int changed; /* 1: spheres came at the end, or radii grew since the last step. The first step and those
+  int changed; /* 1: spheres came at the end, radii grew or types changed since the last step. The first step and those
                     with `setup` look at that anyway */
   double reach; /* length; near spheres are chosen when one has gone farther; 0: a tenth of the
                     largest radius of the last step that looked */

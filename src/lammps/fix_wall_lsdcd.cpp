@@ -293,6 +293,7 @@ void FixWallLsdcd::init()
     if (fix->rigid_flag) rigid = true;
     if (std::strncmp(fix->style, "adapt", 5) == 0) adapts = true;
   }
+  retyping = steps_between_types(*modify);
   if (!rigid) std::vector<double>().swap(damping_mass);
   check_heat();
   if (spec().energy && std::strncmp(update->integrate_style, "respa", 5) == 0)
@@ -441,6 +442,14 @@ lsdcd::SphereDrift FixWallLsdcd::sphere_drift() const
   return drift;
 }
 
+// Since the last step, at the end of which fix set acts, or in this one.
+bool FixWallLsdcd::types_may_change() const
+{
+  return std::any_of(retyping.begin(), retyping.end(), [this](int every) {
+    return update->ntimestep % every == 0 || update->ntimestep % every == 1;
+  });
+}
+
 bool FixWallLsdcd::spheres_go_far() const
 {
   return !update->setupflag && !lammps_looks_at_spheres();
@@ -451,6 +460,7 @@ lsdcd::StepInput FixWallLsdcd::step_input(bool look)
   lsdcd::StepInput input;
   input.step = step_now();
   input.look = look;
+  input.new_types = types_may_change();
   input.new_spheres =
       update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != counted_atoms));
   input.box_changes = domain->box_change;

@@ -94,6 +94,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   bigint counted_atoms = -1;    // how many there were when the wall was told of new spheres
   bool adapts = false;          // some fix changes radii
   bool looks_anew = false;      // there may be new spheres, or other radii, in this step
+  std::vector<int> retyping;    // see steps_between_types()
   bool rigid = false;           // some rigid fix holds atoms: damping_mass replaces rmass
   std::vector<double> damping_mass;
   std::deque<NodeAtoms> node_atoms;    // of each mesh that has nodes
@@ -125,6 +126,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   bool begins_late() const;    // does a step begin in post_force?
   bool lammps_looks_at_spheres() const;
   bool spheres_go_far() const;
+  bool types_may_change() const;
   void begin(bool look);
   int find_variable(const std::string &) const;
   std::vector<double> read_inputs();

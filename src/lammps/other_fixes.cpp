@@ -18,6 +18,7 @@
 #include "modify.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -104,6 +105,15 @@ std::string LAMMPS_NS::doubled_mesh(const FixWallLsdcd &wall, Modify &modify, co
     }
   }
   return "";
+}
+
+std::vector<int> LAMMPS_NS::steps_between_types(Modify &modify)
+{
+  std::vector<int> found;
+  for (Fix *fix : lsdcd::host_fixes(modify))
+    for (const char *style : {"set", "bond/react", "python/invoke"})
+      if (std::strcmp(fix->style, style) == 0) found.push_back(std::max(1, fix->nevery));
+  return found;
 }
 
 std::string LAMMPS_NS::late_pair_springs(const Fix &fix, Modify &modify)

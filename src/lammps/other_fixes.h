@@ -9,6 +9,7 @@
 
 #include <mpi.h>
 #include <string>
+#include <vector>
 
 namespace lsdcd {
 class Host;
@@ -23,6 +24,9 @@ void check_files_apart(const class Fix &, class LAMMPS &, lsdcd::Host &);
 // A text where an earlier fix has a mesh of this one, at the same place and for some of its atoms;
 // empty: none has. The later fix warns. Collective.
 std::string doubled_mesh(const class FixWallLsdcd &, class Modify &, const class Atom &, MPI_Comm);
+
+// Returns every how many steps fixes act that may change types of atoms in a run, also between lists.
+std::vector<int> steps_between_types(class Modify &);
 
 // Returns a text where a pair style of LAMMPS puts the springs of pairs to their atoms after this fix has created or deleted
 // some, so that they would go to other atoms; empty: none does.

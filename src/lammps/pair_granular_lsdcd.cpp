@@ -12,6 +12,7 @@
 #include "lammps/host_fixes.h"
 #include "lammps/host_pairs.h"
 #include "lammps/mpi_host.h"
+#include "lammps/other_fixes.h"
 #include "law/contact_time.h"
 #include "law/force_parts.h"
 #include "pair/compile_pair.h"
@@ -280,7 +281,7 @@ void PairGranularLsdcd::set_springs()
   if (!springs) return;
   check_order();
   springs->watches_radii = adapts;
-  springs->watches_types = retypes;
+  springs->watches_types = !steps_between_types(*modify).empty();
   springs->set_laws(width, books, kinds,
                     {[this](int i, int j) { return flips_of[law_index(i, j)]; },
                      [this](int i, int j) { return numbers[law_index(i, j)].history_kind(); }});
@@ -310,11 +311,9 @@ void PairGranularLsdcd::find_fixes()
 {
   frozen = 0;
   rigid = nullptr;
-  adapts = retypes = false;
+  adapts = false;
   for (Fix *fix : lsdcd::host_fixes(*modify)) {
     if (std::strncmp(fix->style, "adapt", 5) == 0) adapts = true;
-    for (const char *style : {"set", "bond/react", "python/invoke"})
-      if (std::strcmp(fix->style, style) == 0) retypes = true;
     if (std::strncmp(fix->style, "freeze", 6) == 0) {
       if (frozen) fatal("there are two fixes freeze: only one is allowed");
       frozen = fix->groupbit;

@@ -94,7 +94,6 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::vector<int> law_of;                   // of types i and j at i * (n_types + 1) + j
   bool has_heat = false, books = false;
   bool adapts = false;                         // there is a fix adapt, which may change radii
-  bool retypes = false;                        // there is a fix that may change types between lists
   class FixSpringsLsdcd *springs = nullptr;    // null: no law has kept anything yet
   class Fix *rigid = nullptr;
   int frozen = 0;                // bit of the group of fix freeze

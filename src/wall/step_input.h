@@ -15,6 +15,7 @@ namespace lsdcd {
 struct StepInput {
   Step step;
   bool look = false;           // spheres may be others, or have other radii, since the last step
+  bool new_types = false;      // types of spheres may have changed since the last step
   bool new_spheres = false;    // spheres may have come: the timestep and their overlaps are checked
   bool box_changes = false;    // the box may have changed since the last step
   SphereDrift drift;

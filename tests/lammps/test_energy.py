@@ -111,7 +111,7 @@ def test_ways_to_leave(folder):
             fact(f"{name}, {z}: it has left, and nothing was inserted", b["held"] == 0 == b["inserted"] and b["damping"] > 0.1, b)
 
 
-WAYS = {"a skin": "", "lists each 20": "neigh_modify delay 0 every 20 check no\n", "no skin": "neighbor 0 bin\n", "a dynamic group": "group near dynamic all every 1\n"}
+WAYS = {"a skin": "", "lists when due": "neigh_modify delay 0 every 1 check yes\n", "lists each 20": "neigh_modify delay 0 every 20 check no\n", "no skin": "neighbor 0 bin\n", "a dynamic group": "group near dynamic all every 1\n"}
 
 
 def test_fast_grain(folder):

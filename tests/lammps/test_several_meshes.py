@@ -105,3 +105,34 @@ def test_periodic(folder):
     theirs = {s: theirs[s] for s in before}
     at_most("periodic: and roll on the floor until then", lmp.largest_difference(theirs, before),
             1e-12)
+
+
+@lmp.of_host
+def test_types_change_in_a_run(folder):
+    """A grain that fix set gives another type has the law of that type in the next step, whatever lists there are, and so has one of the
+    command set in a run that has no setup."""
+    lmp.flat_floor(folder)
+    for every in (1, 1000):
+        for steps in (1, 5):
+            text = lmp.head("-3 3 -3 3 -1 5", types=2) + f"""\
+create_atoms 1 single 0.3 0.2 0.49
+set group all diameter 1 density 1
+pair_style zero 1.2
+pair_coeff * *
+neigh_modify delay 0 every {every} check no
+variable type atom 1+(step>=5)
+fix change all set {steps} 0 group all type v_type
+fix i all nve/noforce
+fix w all wall/lsdcd hooke 1000 NULL 0 NULL 0 1 mesh floor.stl law types 2 hooke 2000 NULL 0 NULL 0 1
+timestep 1e-4
+thermo 1
+thermo_style custom step f_w[3]
+run 12
+"""
+            first = lmp.read_thermo(lmp.run_well(text, folder))
+            second = lmp.read_thermo(lmp.run_well(text + "unfix change\nset group all type 1\nrun 3 pre no\n", folder))[1:]
+            fact("all steps", len(first) == 13 and len(second) == 3, str((first, second)))
+            for step, force in first + second:
+                # Fix set acts at the end of step 5.
+                stiffness = 2000 if 5 < step <= 12 else 1000
+                at_most(f"lists each {every}, set each {steps}, step {step:g}", abs(force + stiffness * 0.01), 1e-10)

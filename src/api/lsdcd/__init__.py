@@ -764,7 +764,7 @@ class Wall(_Owner):
              quaternions: Any = None, inertia: Any = None) -> None:
         """Adds to `force` and `torque`, (n, 3), and with a law of heat to `heat`, (n,), what the wall does in a
         step of `dt`. Arrays are of numpy or with `__dlpack__` or `__cuda_array_interface__`, where the wall was made for. Contiguous
-        float64 is used in place; on the host others, as columns of a larger array or float32, are copied. `setup`: the forces with which a run begins; `changed`: radii grew since the last
+        float64 is used in place; on the host others, as columns of a larger array or float32, are copied. `setup`: the forces with which a run begins; `changed`: radii grew or types changed since the last
         step. New spheres are at the end. `type`: int32, for laws by type. `synchronous`: velocities of spheres, poses and nodes are of
         the time of their places; else of half a step before, as velocity Verlet has them when it asks for forces.
 
