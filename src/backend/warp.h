@@ -125,6 +125,23 @@ struct Warp {
     return value;
   }
 
+  // Adds up the values of threads side by side that have the same key, each value for itself. Returns whether this thread is the
+  // first one of its key, which has the sums.
+  template <class... T>
+  LSDCD_FN static bool sum_side_by_side([[maybe_unused]] unsigned key,
+                                        [[maybe_unused]] T &...values)
+  {
+    if constexpr (kSize == 1) return true;
+    for (unsigned step = 1; step < kSize; step *= 2) {
+      const unsigned next = (rank() + step) % kSize;
+      const bool adds = of(key, next) == key && rank() + step < kSize;
+      if (!any(adds)) break;
+      (add_if(adds, values, of(values, next)), ...);
+    }
+    const unsigned below = from_below(key, 1);
+    return rank() == 0 || below != key;
+  }
+
   // Adds up the numbers of the threads that have the same key, of those that say `mine`. Returns whether this thread has
   // the sums of its key. On a GPU of a whole warp.
   template <int n>
@@ -183,6 +200,12 @@ struct Warp {
       at += half;
     }
     return at;
+  }
+  // Adds to a value where a thread says so.
+  template <class T>
+  LSDCD_FN static void add_if(bool adds, T &value, const T &other)
+  {
+    if (adds) value += other;
   }
 #if defined(__CUDACC__)
   // Takes room for n things of the warp at `end`, which many warps share; returns where it begins.

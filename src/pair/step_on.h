@@ -145,55 +145,92 @@ struct FindTouching {
   }
 };
 
+// A pair: its place in the list of its row, and what it kept a step ago and keeps; null: nothing.
+struct PairOfRow {
+  std::size_t row;
+  unsigned owner;    // the thread of the warp that has the row
+  int place;
+  PairNumbers<Real> old, now;
+};
+
+// Calls act(is_pair, pair), all threads of a warp together, for the pairs of the warp's rows that touch, as many at once as the warp has
+// threads. A warp shares them, since most rows have few. kParted: also for those that touched a step ago.
+template <bool kParted, class W, class Act>
+LSDCD_FN void for_each_pair(const PairStepView &s, const W &warp, bool mine, std::size_t k,
+                            const Act &act)
+{
+  const std::size_t begin = warp.of(k, 0);    // the first row
+  unsigned first_now = mine && s.width > 0 ? static_cast<unsigned>(s.now.first[k]) : 0,
+           first_old = mine && s.old.words ? static_cast<unsigned>(s.old.first[k]) : 0;
+  for (int w = 0; w < s.words; w++) {
+    const std::size_t at = std::size_t(w) * s.list.rows + k;
+    const std::uint32_t now = mine && s.now.words ? s.now.words[at] : 0,
+                        old = mine && s.old.words ? s.old.words[at] : 0;
+    const unsigned count = static_cast<unsigned>(count_bits(kParted ? now | old : now)),
+                   end = warp.sum_up(count), last = warp.of(end, W::kSize - 1);
+    for (unsigned from = 0; from < last; from += W::kSize) {
+      const unsigned n = from + warp.rank(), owner = owner_of(warp, end - count, n);
+      const std::uint32_t its_now = warp.of(now, owner), its_old = warp.of(old, owner);
+      const unsigned before = warp.of(end - count, owner), of_now = warp.of(first_now, owner),
+                     of_old = warp.of(first_old, owner);
+      PairOfRow pair = {begin + owner, owner, 0, {nullptr, 0}, {nullptr, 0}};
+      if (n < last) {
+        std::uint32_t bits = kParted ? its_now | its_old : its_now;
+        for (unsigned left = n - before; left > 0; left--) bits &= bits - 1;
+        const unsigned bit = lowest_bit(bits);
+        const auto numbers = [&](const TouchingPairs &pairs, std::uint32_t word, unsigned first) {
+          if (s.width == 0 || !(word >> bit & 1)) return PairNumbers<Real>{nullptr, 0};
+          const int nth = count_bits(word & ((std::uint32_t(1) << bit) - 1));
+          return pairs.of(first + std::size_t(s.step) * static_cast<std::size_t>(nth));
+        };
+        pair.place = kWordBits * w + static_cast<int>(bit);
+        pair.old = numbers(s.old, its_old, of_old);
+        pair.now = numbers(s.now, its_now, of_now);
+      }
+      act(n < last, pair);
+    }
+    first_now += s.step * static_cast<unsigned>(count_bits(now));
+    first_old += s.step * static_cast<unsigned>(count_bits(old));
+  }
+}
+
 // Computes the pairs of a row that touch and have laws of the kind. kOne: there is one law, and sums are not asked for.
 template <class Law, bool kOne, bool kFull>
 struct AddPairs {
+  static constexpr unsigned kBlocksAtOnce = 4;
   struct None {};
   PairStepView s;
   std::conditional_t<kOne, Law, None> only;
 
-  LSDCD_FN void operator()(std::size_t k) const
+  template <class W>
+  LSDCD_FN void operator()(const W &warp, bool mine, std::size_t k) const
   {
     if (s.width > 0 && *s.n_pairs > s.now.room) return;    // the host comes again
-    std::uint32_t bits = s.now.words[k];
-    if (s.words == 1 && bits == 0) return;
-    const int i = s.list.grain[k];
-    GrainPair p = {};
-    p.dt = s.dt;
-    p.update = s.update;
-    p.radius_i = s.radius[i];
-    p.mass_i = s.mass[i];
-    p.omega_i = s.omega[i];
-    const Vec3 x = s.x[i], v = s.v[i];
-    Row row = {{0, 0, 0}, {0, 0, 0}, 0};
-    std::size_t place = s.width > 0 ? std::size_t(s.now.first[k]) : 0,
-                old_place = s.old.words ? std::size_t(s.old.first[k]) : 0;
-    for (int w = 0; w < s.words; w++) {
-      const std::size_t at = std::size_t(w) * s.list.rows + k;
-      if (w > 0) bits = s.now.words[at];
-      const std::uint32_t old_bits = s.old.words ? s.old.words[at] : 0;
-      while (bits != 0) {
-        const unsigned bit = lowest_bit(bits);
-        bits &= bits - 1;
-        PairNumbers<Real> old = {nullptr, 0};
-        if (old_bits >> bit & 1)
-          old = s.old.of(old_place + s.step * static_cast<unsigned>(count_bits(
-                                                  old_bits & ((std::uint32_t(1) << bit) - 1))));
-        add(i, s.list.at(i, kWordBits * w + static_cast<int>(bit)), x, v, p, old, s.now.of(place),
-            row);
-        place += s.step;
+    for_each_pair<false>(s, warp, mine, k, [&](bool is_pair, const PairOfRow &pair) {
+      Row row = {{0, 0, 0}, {0, 0, 0}, 0};
+      int i = 0;
+      if (is_pair) {
+        i = s.list.grain[pair.row];
+        add(i, s.list.at(i, pair.place), pair.old, pair.now, row);
       }
-      old_place += s.step * static_cast<unsigned>(count_bits(old_bits));
-    }
-    if constexpr (kFull) {
-      s.force.add(i, row.force);
-      s.torque.add(i, row.torque);
-    } else {
-      add_shared(s.force, i, row.force, s.alone);
-      add_shared(s.torque, i, row.torque, s.alone);
-    }
-    if constexpr (Law::kHeat)
-      if (s.heat) add_shared(s.heat + i, row.heat, s.alone || kFull);
+      const unsigned owner = is_pair ? pair.owner : W::kSize;
+      bool is_first;
+      if constexpr (Law::kHeat)
+        is_first = warp.sum_side_by_side(owner, row.force, row.torque, row.heat);
+      else
+        is_first = warp.sum_side_by_side(owner, row.force, row.torque);
+      if constexpr (kFull) warp.wait();    // until the row's pairs before these are added
+      if (!is_pair || !is_first) return;
+      if constexpr (kFull) {
+        s.force.add(i, row.force);
+        s.torque.add(i, row.torque);
+      } else {
+        add_shared(s.force, i, row.force, s.alone);
+        add_shared(s.torque, i, row.torque, s.alone);
+      }
+      if constexpr (Law::kHeat)
+        if (s.heat) add_shared(s.heat + i, row.heat, s.alone || kFull);
+    });
   }
 
  private:
@@ -202,8 +239,8 @@ struct AddPairs {
     Real heat;
   };
 
-  LSDCD_FN void add(int i, int with, const Vec3 &x, const Vec3 &v, GrainPair &p,
-                    const PairNumbers<Real> &old, const PairNumbers<Real> &kept, Row &row) const
+  LSDCD_FN void add(int i, int with, const PairNumbers<Real> &old, const PairNumbers<Real> &kept,
+                    Row &row) const
   {
     const int j = with & s.list.mask;
     const Law *law;
@@ -215,15 +252,7 @@ struct AddPairs {
       law = &s.laws[of_pair].template in_kernel<Law>();
       for (int n = 0; n < s.width; n++) kept[n] = 0;    // others may keep more
     }
-    p.offset = x - s.x[j];
-    p.distance_sq = norm_sq(p.offset);
-    p.radius_j = s.radius[j];
-    p.velocity = v - s.v[j];
-    p.omega_j = s.omega[j];
-    p.mass_j = s.mass[j];
-    p.mass = reduced_mass(s, i, j, p.mass_i, p.mass_j);
-    if constexpr (Law::kHeat)
-      if (s.heat) p.temperature_difference = s.temperature[j] - s.temperature[i];
+    const GrainPair p = grain_pair(s, i, j, s.update);
     PairForce f;
     evaluate_pair(*law, p, old, kept, f);
     const Real factor = s.factor[with >> s.list.factor_shift & 3];
@@ -265,9 +294,8 @@ struct PairLawOn {
 template <class Law, class B>
 void run_pair_law(const PairStepView &s, const LawBytes &law, B &b)
 {
-  constexpr unsigned kBlock = 128;
   const auto run = [&](const auto &kernel) {
-    b.for_each(static_cast<std::size_t>(s.list.rows), kernel, kBlock);
+    b.for_each_in_warps(static_cast<std::size_t>(s.list.rows), kernel);
   };
   if (s.n_laws > 1 || s.sums)
     s.list.full ? run(AddPairs<Law, false, true>{s, {}}) : run(AddPairs<Law, false, false>{s, {}});

@@ -218,8 +218,7 @@ struct Cloud : GrainRows {
                 {words.data(), first.data(), numbers.data(), std::size_t(n_now)},
                 {old_words.data(), old_first.data(), old_numbers.data(), std::size_t(n_old)});
   }
-  template <class B>
-  std::vector<EnergyRows> book(B &&b, const TouchingPairs &now, const TouchingPairs &old)
+  PairStepView step(const TouchingPairs &now, const TouchingPairs &old)
   {
     PairStepView s;
     give(s);
@@ -230,6 +229,24 @@ struct Cloud : GrainRows {
     s.width = kWidth;
     s.law_of = s.kind_of = zeros.data();
     s.n_types = 2;
+    s.n_pairs = &n_places;
+    return s;
+  }
+  // Adds the forces of all pairs.
+  template <bool kFull, class B>
+  void add(B &&b)
+  {
+    const PairStepView s =
+        step({words.data(), first.data(), numbers.data(), std::size_t(n_now)},
+             {old_words.data(), old_first.data(), old_numbers.data(), std::size_t(n_old)});
+    with_granular_law(law, [&](const auto &model) {
+      b.for_each_in_warps(kGrains, AddPairs<std::decay_t<decltype(model)>, true, kFull>{s, model});
+    });
+  }
+  template <class B>
+  std::vector<EnergyRows> book(B &&b, const TouchingPairs &now, const TouchingPairs &old)
+  {
+    PairStepView s = step(now, old);
     const std::size_t share = std::decay_t<B>::kOnCpu ? 1 : kWarpSize;
     std::vector<EnergyRows> sums((kGrains + share - 1) / share);
     std::vector<char> is_booked(sums.size());
@@ -250,7 +267,37 @@ struct Cloud : GrainRows {
   std::vector<std::uint32_t> words = std::vector<std::uint32_t>(kWords * kGrains),
                              old_words = words;
   int n_now = 0, n_old = 0;
+  std::uint32_t n_places = 0;
 };
+
+// Checks that a warp adds to each grain what threads of a CPU add, and keeps the same springs.
+template <bool kFull>
+void expect_same_forces()
+{
+  Cloud alone, shared;
+  alone.add<kFull>(CpuBackend());
+  shared.add<kFull>(WarpBackend());
+  EXPECT_EQ(alone.numbers, shared.numbers);
+  Real largest[2] = {0, 0};
+  for (std::size_t k = 0; k < alone.force.size(); k++) {
+    largest[0] = std::max(largest[0], std::abs(alone.force[k]));
+    largest[1] = std::max(largest[1], std::abs(alone.torque[k]));
+  }
+  ASSERT_GT(std::min(largest[0], largest[1]), 1);
+  // A grain has less than kGrains contacts, of forces less than 10 times the largest sum, added in another order.
+  for (std::size_t k = 0; k < alone.force.size(); k++) {
+    EXPECT_NEAR(shared.force[k], alone.force[k], Cloud::kGrains * 1.2e-15 * largest[0]) << k;
+    EXPECT_NEAR(shared.torque[k], alone.torque[k], Cloud::kGrains * 1.2e-15 * largest[1]) << k;
+  }
+}
+TEST(warps, add_the_forces_of_a_half_list)
+{
+  expect_same_forces<false>();
+}
+TEST(warps, add_the_forces_of_a_full_list)
+{
+  expect_same_forces<true>();
+}
 
 TEST(warps, share_the_pairs_that_they_book)
 {
