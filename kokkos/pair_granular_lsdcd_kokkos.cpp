@@ -72,7 +72,7 @@ void PairGranularLsdcdKokkos<DeviceType>::request_list()
 template <class DeviceType>
 void PairGranularLsdcdKokkos<DeviceType>::bring_masses()
 {
-  if (!rigid || neighbor->ago > 0) return;
+  if (!masses_are_due()) return;
   atomKK->sync(Host, RMASS_MASK);
   execution_space = Host;
   fill_masses();

@@ -229,6 +229,10 @@ void PairGranularLsdcd::init_style()
   beyond_contact = std::any_of(numbers.begin(), numbers.end(),
                                [](const lsdcd::ContactLaw &law) { return law.pull_off() > 0; });
   set_springs();
+  constexpr int kTiled = 1;
+  if (kept_width() > 0 && force->newton_pair && comm->style == kTiled)
+    fatal("with newton on LAMMPS cannot send springs to their grains by comm_style tiled: write "
+          "newton off");
   request_list();
   if (!told) tell_laws();
   told = true;
@@ -476,9 +480,15 @@ void PairGranularLsdcd::check_step()
 
 // ---- a step ------------------------------------------------------------------------------
 
+// Fix adapt also changes masses between two lists.
+bool PairGranularLsdcd::masses_are_due() const
+{
+  return rigid && (neighbor->ago == 0 || adapts);
+}
+
 void PairGranularLsdcd::fill_masses()
 {
-  if (!rigid || neighbor->ago > 0) return;
+  if (!masses_are_due()) return;
   int dim;
   const int *const body = static_cast<const int *>(rigid->extract("body", dim));
   const double *const mass = static_cast<const double *>(rigid->extract("masstotal", dim));

@@ -48,6 +48,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   virtual std::string springs_style() const { return "SPRINGS/LSDCD"; }
   virtual void request_list();
   virtual std::vector<double> kept_numbers(int i, int j);
+  bool masses_are_due() const;
   void fill_masses();
   void check_growth();
   double time_step() const;

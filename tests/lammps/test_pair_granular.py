@@ -101,6 +101,43 @@ def test_masses(folder, what):
     at_most(f"{what}: positions, velocities, forces, torques", lmp.largest_difference(theirs, own), 1e-10)
 
 
+def test_masses_change(folder):
+    """A grain that fix adapt makes heavier after lists are made has its new mass at once, also where there are rigid bodies elsewhere."""
+    bodies = "fix mark all property/atom i_body\nset group body i_body 1\nfix stiff body rigid/small custom i_body\n"
+    dumps = []
+    for rigid in ("", bodies):
+        text = lmp.head("-6 6 -4 4 -4 4", style="sphere 1") + "".join(f"create_atoms 1 single {at} 0\n" for at in ("0 0", "1.06 0.2", "-4 0", "-4 0.5", "-3.5 0"))
+        text += f"""set group all diameter 1 density 2
+group body id > 2
+group free id < 3
+group one id 1
+velocity one set 3 0.3 0
+{ours("* * law hooke/history 1e4 NULL 30 NULL 0.4 1")}
+neighbor 2 bin
+neigh_modify delay 0 every 1 check yes exclude group body body
+{rigid}fix move free nve/sphere
+fix grow free adapt 1 atom diameter v_wide
+variable wide equal 1.0+0.05*(step>0)
+timestep 2e-4
+dump d free custom 400 out id x y vx vy omegaz
+dump_modify d sort id format float %.17g
+run 400
+"""
+        lmp.run_well(text, folder)
+        dumps.append(lmp.read_dump(folder / "out"))
+    at_most("positions and velocities", lmp.largest_difference(*dumps), 1e-12)
+
+
+def test_tiles(folder):
+    """With newton on LAMMPS cannot send what pairs keep by comm_style tiled; with newton off, or of a law that keeps nothing, it can."""
+    history, none = ours("* * law hooke/history 1e4 NULL 30 NULL 0.4 1"), ours("* * law hooke 1e4 NULL 30 NULL 0.4 1")
+    tiles = "comm_style tiled\nneigh_modify every 40 delay 0 check no\n"    # with Kokkos a buffer of LAMMPS grows by half each time
+    lmp.refused("newton on", script(history, newton="on", more=tiles), folder, "write newton off")
+    one = states(folder, history)
+    at_most("newton off", lmp.largest_difference(one, states(folder, history, more=tiles, ranks=2)), 1e-10)
+    lmp.run_well(script(none, newton="on", more=tiles), folder, 2)
+
+
 @pytest.mark.parametrize("newton", ["off", "on"])
 def test_ranks(folder, newton):
     """What pairs keep goes with the grains: lists are made anew in each tenth step, and grains go to other processes."""
