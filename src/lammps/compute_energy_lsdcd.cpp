@@ -10,9 +10,13 @@
 #include "lammps/pair_granular_lsdcd.h"
 
 #include "atom.h"
+#include "domain.h"
 #include "force.h"
 #include "modify.h"
 #include "update.h"
+#if __has_include("fix_nve_sphere.h")
+#include "fix_nve_sphere.h"
+#endif
 
 #include <cstring>
 
@@ -23,6 +27,34 @@ using lsdcd::EnergyRow;
 namespace {
 
 constexpr int kNumbers = 22;
+constexpr double kOfSphere = 0.4, kOfDisc = 0.5;    // moments of inertia over m r^2
+
+// What fix nve/sphere does not tell: the moment of inertia with which it turns grains, over m r^2.
+#if __has_include("fix_nve_sphere.h")
+class NveSphere : public FixNVESphere {
+ public:
+  static double inertia_of(const Fix *fix)
+  {
+    const auto *const sphere = dynamic_cast<const FixNVESphere *>(fix);
+    return sphere ? sphere->*(&NveSphere::inertia) : 0;
+  }
+};
+#else
+// LAMMPS installs no fix_nve_sphere.h. These are the members that it has since 2018.
+class NveSphere : public Fix {
+ public:
+  static double inertia_of(const Fix *fix)
+  {
+    return reinterpret_cast<const NveSphere *>(fix)->inertia;
+  }
+
+ private:
+  double dtv, dtf;
+  double *step_respa;
+  int mass_require;
+  double inertia;
+};
+#endif
 
 }    // namespace
 
@@ -66,6 +98,7 @@ void ComputeEnergyLsdcd::init()
 {
   watch.init(*update);
   pair();
+  find_discs();
   if (std::strncmp(update->integrate_style, "respa", 5) == 0)
     fatal("the work of a step is that of one timestep: use run_style verlet");
   for (const FixWallLsdcd *wall : walls())
@@ -84,14 +117,32 @@ void ComputeEnergyLsdcd::setup()
   told_of_rerun = true;
 }
 
+// Only two-dimensional grains may be discs.
+void ComputeEnergyLsdcd::find_discs()
+{
+  discs = 0;
+  if (domain->dimension != 2) return;
+  for (const Fix *fix : lsdcd::host_fixes(*modify)) {
+    if (std::strncmp(fix->style, "nve/sphere", 10) != 0) continue;
+    const double inertia = NveSphere::inertia_of(fix);
+    if (inertia == kOfDisc)
+      discs |= fix->groupbit;
+    else if (inertia != kOfSphere)
+      fatal(std::string("this LAMMPS does not say as it used to whether fix ") + fix->id +
+            " has spheres or discs: leave this compute out");
+  }
+}
+
 double ComputeEnergyLsdcd::kinetic() const
 {
   double twice = 0;
   for (int i = 0; i < atom->nlocal; i++) {
     const double *const v = atom->v[i], *const w = atom->omega[i];
     const double radius = atom->radius[i];
-    twice += atom->rmass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] +
-                               0.4 * radius * radius * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]));
+    const double inertia = atom->mask[i] & discs ? kOfDisc : kOfSphere;
+    twice +=
+        atom->rmass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] +
+                          inertia * radius * radius * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]));
   }
   double all = 0;
   MPI_Allreduce(&twice, &all, 1, MPI_DOUBLE, MPI_SUM, world);

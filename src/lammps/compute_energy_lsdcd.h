@@ -27,11 +27,13 @@ class ComputeEnergyLsdcd : public Compute, protected OwnMessages {
  private:
   const class PairGranularLsdcd &pair() const;
   std::vector<class FixWallLsdcd *> walls() const;
+  void find_discs();
   double kinetic() const;
   double potential() const;
 
   bool told = false;             // of a wall that books nothing
   bool told_of_rerun = false;    // in which nothing is booked
+  int discs = 0;                 // bits of the groups whose grains are discs
   RerunWatch watch;
 };
 

@@ -369,3 +369,23 @@ def test_rerun(folder):
     rerun, run = books(told)[-2:]
     at_most("no work in a rerun", abs(rerun["work"]) + abs(rerun["damping"]), 0)
     fact("work in the run behind it", run["damping"] > 0, str(run))
+
+
+def test_discs(folder):
+    """In two dimensions grains of fix nve/sphere disc turn with a moment of inertia of m r^2/2, and others with 2/5 m r^2: the kinetic energy is that of
+    both, and a disc that rolls, slips and bounces between two others keeps the balance."""
+    head = lmp.head("-3 3 -3 3 -0.5 0.5", "f f p").replace("boundary", "dimension 2\nboundary")
+    law = "law hooke/history 1e4 NULL 0 0 0.3 0"
+    spins = "set group all omega 0 0 3\nfix flat all enforce2d\nfix one one nve/sphere{}\nfix two two nve/sphere disc"
+    for word, inertia in (("", 0.4), (" disc", 0.5)):
+        script = head + TWO.format(law=law, dt=1e-4, run="run 100", b="1.5 0 0", move=spins.format(word))
+        kinetic = books(lmp.run_well(script, folder))[-1]["kinetic"]
+        at_most(f"kinetic energy of grain one{word}", abs(kinetic - 0.5 * 0.25 * 9 * (inertia + 0.5)), 1e-12)
+    balance = []
+    for dt in (2e-4, 1e-4):
+        script = head + TWO.format(law=law, dt=dt, run=f"run {0.4 / dt:.0f}", b="1.2 0.3 0", move=spins.format(" disc") + "\nvelocity two set -1 0 0")
+        rows = books(lmp.run_well(script, folder))
+        fact("they slip", rows[-1]["slider"] > 0.02 and rows[-1]["held"] == 0, rows[-1])
+        balance.append(abs(rows[-1]["balance"] - rows[0]["balance"]))
+    # The remainder of the step in which they touch, k (v dt)^2/8 at both ends, of grains that meet at 1 and slip at 3.
+    at_most("change of the balance", max(balance[0] / 4, balance[1]), 1e4 * 1e-8 / 4)
