@@ -8,6 +8,7 @@
 #include "api/device_memory.h"
 #include "api/objects.h"
 #include "api/points_given.h"
+#include "api/refusals.h"
 #include "query/shape_query.h"
 
 #include <cstddef>
@@ -29,6 +30,7 @@ lsdcd_shapes checked_shapes(const ApiGrid &grid, const lsdcd_shapes *given)
 {
   lsdcd_shapes s = checked(given, "lsdcd_shapes");
   check_threads(s.threads);
+  checked_flag(s.one_shape, "one_shape");
   if (s.n > 0) {
     need(s.centres, "centres");
     need(s.half_axes, "half_axes");

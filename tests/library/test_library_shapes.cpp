@@ -215,6 +215,8 @@ TEST_F(Shape, is_refused_by_a_sentence_where_it_makes_none)
   s.first = first;
   refused(grid.get(), s, LSDCD_ERROR_INPUT,
           "grain 1: a half-axis of a shape is -1: half-axes are lengths above 0");
+  s.one_shape = 2;
+  refused(grid.get(), s, LSDCD_ERROR_ARGUMENT, "one_shape is 2");
   s.one_shape = 1;
   s.quaternions = turns;
   refused(grid.get(), s, LSDCD_ERROR_INPUT,
