@@ -187,6 +187,7 @@ State Insertion::state(std::int64_t step) const
               retry_step_ - step,           {}};
   for (const Grain &grain : owed_) s.grains.owed.push_back(grain.number);
   s.refused = refused_;
+  s.last_id = last_id_;
   return s.blocks();
 }
 
@@ -198,6 +199,7 @@ bool Insertion::restore(const Real *numbers, std::size_t n, std::int64_t step)
   const bool is_same = former == plan;
   schedule_.restore(s.schedule, step);
   refused_ = s.refused;
+  last_id_ = s.last_id;
   inserted_mass_ = g.inserted.mass;
   next_number_ = g.next_number;
   owed_.clear();

@@ -76,6 +76,9 @@ class Insertion {
   // Due, without a place. Grains that are not yet drawn count with the mean mass.
   GrainTotals late() const;
   const Refused &refused() const { return refused_; }
+  // The highest ID that the host has given to a grain, so that none gets that of one that has gone; 0: none yet.
+  std::int64_t last_id() const { return last_id_; }
+  void note_id(std::int64_t id) { last_id_ = id; }
   // Is more in than the total that is asked for?
   bool is_past_total() const;
 
@@ -114,6 +117,7 @@ class Insertion {
   std::int64_t wait_ = 1, retry_step_ = 0;    // for owed grains
   Real inserted_mass_ = 0;
   Refused refused_;
+  std::int64_t last_id_ = 0;
   std::int64_t next_step_ = 0;
 };
 

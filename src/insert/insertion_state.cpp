@@ -51,6 +51,7 @@ State InsertionState::blocks() const
   all.add("schedule", 1, schedule);
   all.add("grains", 1, grains);
   all.add("refused", 1, refused);
+  if (last_id > 0) all.add("last ID", 1, last_id);
   return all;
 }
 
@@ -62,6 +63,7 @@ InsertionState InsertionState::from(const Real *numbers, std::size_t n)
   all.read("schedule", 1, s.schedule);
   all.read("grains", 1, s.grains);
   all.read("refused", 1, s.refused);
+  all.find("last ID", 1, s.last_id);
   if (!all.unread().empty())
     throw StateError("the data of the insertion have " + all.unread() +
                      ", which this version does not know");

@@ -38,6 +38,7 @@ struct InsertionState {
   FeedState schedule;
   Grains grains;
   Refused refused;
+  std::int64_t last_id = 0;    // 0: none was given
 
   State blocks() const;
   // Throws StateError.

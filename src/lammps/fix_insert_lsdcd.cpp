@@ -478,12 +478,23 @@ void FixInsertLsdcd::clear_levels(int n_new) const
   }
 }
 
+// Of this fix and the others like it, where n more are to come: those of grains that have gone are given again only where there are
+// no others.
+tagint FixInsertLsdcd::last_id(bigint n) const
+{
+  std::int64_t last = 0;
+  for (const Fix *fix : lsdcd::host_fixes(*modify))
+    if (const auto *inlet = dynamic_cast<const FixInsertLsdcd *>(fix))
+      last = std::max(last, inlet->insertion->last_id());
+  return last > MAXTAGINT - n ? 0 : static_cast<tagint>(last);
+}
+
 // IDs are given in the order in which grains are placed, so that they do not depend on the number of processes.
 void FixInsertLsdcd::create(const std::vector<Insertion::Placed> &placed)
 {
   if (placed.empty()) return;
   const bigint n = static_cast<bigint>(placed.size());
-  tagint most = 0;
+  tagint most = last_id(n);
   for (int i = 0; atom->tag_enable && i < atom->nlocal; i++) most = std::max(most, atom->tag[i]);
   MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   if (atom->tag_enable && most > MAXTAGINT - n)
@@ -514,6 +525,7 @@ void FixInsertLsdcd::create(const std::vector<Insertion::Placed> &placed)
   if (made != n)
     fatal("of " + std::to_string(n) + " grains " + std::to_string(made) +
           " belong to a process: this is an error in the program");
+  if (atom->tag_enable) insertion->note_id(most + n);
   atom->natoms += n;
   if (atom->natoms >= MAXBIGINT) fatal("too many atoms");
   if (atom->map_style == Atom::MAP_NONE) return;

@@ -77,6 +77,7 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   void begin_report();
   void check_temperature() const;
   void warn_of_seed(const std::vector<Fix *> &fixes);
+  tagint last_id(bigint n) const;
   void set_properties(int) const;
   void clear_levels(int n_new) const;
   std::string late_text(const std::string &, const lsdcd::Refused &) const;

@@ -277,6 +277,25 @@ print           "inserted $(f_in[1])"
         fact(f"pre {setup}: the second run tells its own", said.count("grains of mass") == 2, said[-2000:])
 
 
+def test_ids_of_gone_grains(folder):
+    """No grain gets the ID of one that has gone, so that files of passages tell them apart; nor after a restart."""
+    stl.write(folder / "gate.stl", [t[::-1] for t in stl.square(2, 1)])
+    begin = lmp.head("-2 2 -2 2 0 4") + "create_atoms 1 single 1.9 1.9 3.9\nset group all diameter 0.1 density 1\n"
+    fixes = END + """timestep 0.01
+region          top block -1 1 -1 1 2 3
+fix             in all insert/lsdcd region top numberrate 2 diam one 0.1 dens 1 vel 0 0 -5
+fix             out all massflow/lsdcd mesh gate.stl delete yes file rows.txt
+"""
+    def ids():
+        return [row[2] for row in lmp.read_rows(folder / "rows.txt")]
+    lmp.run_well(begin + fixes + "run 400\n", folder)
+    whole = ids()
+    fact("each has an ID of its own", len(whole) > 5 and whole == list(range(2, 2 + len(whole))), str(whole))
+    lmp.run_well(begin + fixes + "run 200\nwrite_restart half\n", folder)
+    lmp.run_well("atom_modify map array\nread_restart half\ncomm_modify vel yes\n" + fixes + "run 200\n", folder)
+    fact("and goes on after a restart", ids() == whole, str(ids()))
+
+
 @pytest.mark.skipif(lmp.ON_KOKKOS, reason="there is no respa with Kokkos")
 def test_levels_of_respa(folder):
     """Grains that come in a step of respa have no force yet, though an atom that was pushed has left its place to them."""
