@@ -216,7 +216,7 @@ TEST_F(Shape, is_refused_by_a_sentence_where_it_makes_none)
   refused(grid.get(), s, LSDCD_ERROR_INPUT,
           "grain 1: a half-axis of a shape is -1: half-axes are lengths above 0");
   s.one_shape = 2;
-  refused(grid.get(), s, LSDCD_ERROR_ARGUMENT, "one_shape is 2");
+  refused(grid.get(), s, LSDCD_ERROR_ARGUMENT, "`one_shape` is 2: it is 0 or 1");
   s.one_shape = 1;
   s.quaternions = turns;
   refused(grid.get(), s, LSDCD_ERROR_INPUT,
