@@ -68,6 +68,17 @@ void PairGranularLsdcdKokkos<DeviceType>::request_list()
   request->set_kokkos_device(device);
 }
 
+template <class DeviceType>
+void PairGranularLsdcdKokkos<DeviceType>::share_types_of_host()
+{
+  const bool may_have_changed = types_may_have_changed();
+  if (may_have_changed) atomKK->sync(Host, TYPE_MASK);
+  execution_space = Host;
+  share_types();
+  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
+  if (may_have_changed) atomKK->modified(Host, TYPE_MASK);
+}
+
 // LAMMPS sends masses of bodies to ghost atoms on the host.
 template <class DeviceType>
 void PairGranularLsdcdKokkos<DeviceType>::bring_masses()
@@ -130,6 +141,7 @@ void PairGranularLsdcdKokkos<DeviceType>::compute(int eflag, int vflag)
   ev_init(eflag, vflag);
   if (adapts) atomKK->sync(Host, RADIUS_MASK | TYPE_MASK | MASK_MASK | TAG_MASK);
   check_growth();
+  share_types_of_host();
   bring_masses();
   atomKK->sync(execution_space, X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK |
                                     TYPE_MASK | MASK_MASK | F_MASK | TORQUE_MASK);

@@ -27,6 +27,7 @@ class PairGranularLsdcdKokkos : public PairGranularLsdcd {
   std::vector<double> kept_numbers(int, int) override;
 
  private:
+  void share_types_of_host();
   void bring_masses();
   lsdcd::PairInput step();
   void tally(const double *sums);

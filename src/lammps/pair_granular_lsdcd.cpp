@@ -285,7 +285,7 @@ void PairGranularLsdcd::set_springs()
   if (!springs) return;
   check_order();
   springs->watches_radii = adapts;
-  springs->watches_types = !steps_between_types(*modify).empty();
+  springs->watches_types = !retyping.empty();
   springs->set_laws(width, books, kinds,
                     {[this](int i, int j) { return flips_of[law_index(i, j)]; },
                      [this](int i, int j) { return numbers[law_index(i, j)].history_kind(); }});
@@ -316,6 +316,7 @@ void PairGranularLsdcd::find_fixes()
   frozen = 0;
   rigid = nullptr;
   adapts = false;
+  retyping = steps_between_types(*modify);
   for (Fix *fix : lsdcd::host_fixes(*modify)) {
     if (std::strncmp(fix->style, "adapt", 5) == 0) adapts = true;
     if (std::strncmp(fix->style, "freeze", 6) == 0) {
@@ -496,6 +497,11 @@ void PairGranularLsdcd::fill_masses()
   masses.resize(static_cast<std::size_t>(atom->nlocal) + atom->nghost);
   for (int i = 0; body && mass && i < atom->nlocal; i++)
     if (body[i] >= 0 && mass[body[i]] > 0) masses[i] = mass[body[i]];
+  send_to_ghosts();
+}
+
+void PairGranularLsdcd::send_to_ghosts()
+{
 #if LSDCD_HOST_VERSION < 20220601
   comm->forward_comm_pair(this);
 #else
@@ -503,15 +509,38 @@ void PairGranularLsdcd::fill_masses()
 #endif
 }
 
+// Since the last step, with the same lists: by a fix, or by a command before a run without a setup.
+bool PairGranularLsdcd::types_may_have_changed() const
+{
+  if (laws.size() < 2 || update->setupflag || neighbor->ago == 0) return false;
+  const bigint now = update->ntimestep;
+  return (now == update->firststep + 1 && set_up_at != update->firststep) ||
+         std::any_of(retyping.begin(), retyping.end(),
+                     [now](int every) { return now % every == 0 || now % every == 1; });
+}
+
+// Ghost atoms get their types with new lists only, and the two processes of a pair would take different laws.
+void PairGranularLsdcd::share_types()
+{
+  if (update->setupflag) set_up_at = update->ntimestep;
+  if (!types_may_have_changed()) return;
+  sends_types = true;
+  send_to_ghosts();
+  sends_types = false;
+}
+
 int PairGranularLsdcd::pack_forward_comm(int n, int *atoms, double *buf, int, int *)
 {
-  for (int k = 0; k < n; k++) buf[k] = masses[atoms[k]];
+  for (int k = 0; k < n; k++) buf[k] = sends_types ? atom->type[atoms[k]] : masses[atoms[k]];
   return n;
 }
 
 void PairGranularLsdcd::unpack_forward_comm(int n, int first, double *buf)
 {
-  std::copy_n(buf, n, masses.begin() + first);
+  if (sends_types)
+    std::copy_n(buf, n, atom->type + first);
+  else
+    std::copy_n(buf, n, masses.begin() + first);
 }
 
 double PairGranularLsdcd::time_step() const
@@ -565,6 +594,7 @@ void PairGranularLsdcd::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   check_growth();
+  share_types();
   fill_masses();
   lsdcd::PairJob step = job();
   if (kept_width() > 0) {

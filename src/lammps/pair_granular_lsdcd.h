@@ -51,6 +51,8 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   bool masses_are_due() const;
   void fill_masses();
   void check_growth();
+  bool types_may_have_changed() const;
+  void share_types();
   double time_step() const;
   bool time_passes() const;
   int kept_width() const;    // numbers that a touching pair keeps
@@ -74,6 +76,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   lsdcd::PairJob job();
   void tell_laws();
   void check_step();
+  void send_to_ghosts();
 
   double cutoff = -1;
   std::map<std::pair<int, int>, lsdcd::PairCoeff> given;    // i <= j
@@ -85,7 +88,10 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
       without_law;    // types that cannot be mixed, and why; within a hybrid style they may have another style
   std::vector<Radii> radii;
   bool told = false;
-  double warned_of = 0;    // the timestep that the last warning was about
+  bigint set_up_at = -1;        // the step of the last setup
+  std::vector<int> retyping;    // see steps_between_types()
+  bool sends_types = false;     // to ghost atoms; else masses
+  double warned_of = 0;         // the timestep that the last warning was about
   std::string springs_id, dummy_id;
   std::vector<lsdcd::RecordedPair> record;
 
