@@ -13,7 +13,7 @@
 // and, with kVectors or kScalars, and with kHeat
 //   stores(k)           is the k-th of these vectors and scalars stored from step to step?
 //   has_heat()         is there a heat flow?
-// Laws that walls with books of energy have (with_energy_law()) say with parts() what a force is made of.
+// Laws with which energy is booked (with_energy_law()) say with parts() what a force is made of.
 // The classic laws, and the most frequent ones of `granular`, have no instruction and no memory for an
 // effect that is off. Effects that few scenes use are together in one law, with a branch for each. It
 // stores and exchanges only what is on.
@@ -154,6 +154,7 @@ struct AddedModel {
 enum class GranularSet {
   few,         // friction as in LAMMPS, but for `mindlin_rescale`
   midpoint,    // friction as in LIGGGHTS
+  either,      // friction as in one of the two
   full,        // few with `mindlin_rescale`, rolling, twisting and heat as in LAMMPS
   all          // those, and friction, rolling and cohesion as in LIGGGHTS
 };
@@ -167,7 +168,8 @@ struct GranularModel {
   static constexpr int kExtra = 3 * kVectors + kScalars;
   static constexpr bool kBeyondContact = Normal::kBeyondContact;
   static constexpr bool kContactTorque = (kHistory && kFull) || kAll, kHeat = kFull;
-  static constexpr bool kWholeArms = false, kMidpoint = kAll || kSet == GranularSet::midpoint;
+  static constexpr bool kWholeArms = false, kMidpoint = kAll || kSet == GranularSet::midpoint ||
+                                                        kSet == GranularSet::either;
   using Rolls = std::conditional_t<kAll, AnyRolling, SpringRolling>;
   static_assert(SpringRolling::kAllStore, "a law without memory has no contact torque");
 
@@ -236,18 +238,23 @@ struct GranularModel {
   LSDCD_FN Real normal_energy(C c, Real overlap) const
   {
     c.overlap = overlap;
-    const Real held = elastic.energy(c, elastic.contact_radius(c));
-    return held + (cohesion.is_on() && overlap > 0 ? cohesion.energy(c) : 0);
+    Real held = elastic.energy(c, elastic.contact_radius(c));
+    if constexpr (kAll)
+      if (cohesion.is_on() && overlap > 0) held += cohesion.energy(c);
+    return held;
   }
   // What `out` is made of, which evaluate() has returned; `begun` and `memory`: what is kept before and after.
   template <class C>
   LSDCD_FN ForceParts parts(const C &c, const ContactMemory<kExtra> &begun,
                             const ContactMemory<kExtra> &memory, const FullForce &out) const
   {
-    static_assert(kHistory && kAll, "books of energy are of the law that has all");
+    static_assert(kHistory && (kAll || kSet == GranularSet::either),
+                  "books of energy are of the laws with either friction");
     const Real a =
         uses_contact_radius || elastic.uses_contact_radius() ? elastic.contact_radius(c) : 0;
-    const Real pull = cohesion.is_on() && c.overlap > 0 ? cohesion.pull(c) : 0;
+    Real pull = 0;
+    if constexpr (kAll)
+      if (cohesion.is_on() && c.overlap > 0) pull = cohesion.pull(c);
     const Real f = elastic.force(c, a), gamma = damping.coefficient(c, a, f);
     const Real limit = elastic.limit(c, f, out.normal + pull);
     ForceParts parts = {};
@@ -256,13 +263,15 @@ struct GranularModel {
       parts.friction = tangential.part(c, a, begun, memory, kRadius, tangential.mu * limit);
     else
       parts.slides = is_below(out.tangential, tangential.xgammat * gamma, c.v_tangent);
-    rolling.part(RollingInput<C>{c, limit, elastic.stiffness(a), tangential.stiffness(a)}, begun,
-                 memory, kRolled, parts);
-    if (twisting.is_on()) {
-      const TwistCoefficients t = twisting.coefficients(limit, a, tangential.stiffness(a),
-                                                        tangential.xgammat * gamma, tangential.mu);
-      parts.twisting = {begun.extra[kTwist] * c.normal, memory.extra[kTwist] * c.normal, t.k,
-                        false};
+    if constexpr (kFull) {
+      rolling.part(RollingInput<C>{c, limit, elastic.stiffness(a), tangential.stiffness(a)}, begun,
+                   memory, kRolled, parts);
+      if (twisting.is_on()) {
+        const TwistCoefficients t = twisting.coefficients(
+            limit, a, tangential.stiffness(a), tangential.xgammat * gamma, tangential.mu);
+        parts.twisting = {begun.extra[kTwist] * c.normal, memory.extra[kTwist] * c.normal, t.k,
+                          false};
+      }
     }
     return parts;
   }
@@ -275,8 +284,9 @@ struct GranularModel {
     if constexpr (!kHistory) {
       return tangential.slip_force(c, gamma, limit);
     } else {
-      if constexpr (kFull) {
+      if constexpr (kFull || kSet == GranularSet::either)
         if (!tangential.spring) return tangential.slip_force(c, gamma, limit);
+      if constexpr (kFull) {
         if (tangential.rescale) tangential.rescale_spring(a, memory, kRadius);
       }
       if constexpr (kMidpoint)

@@ -71,11 +71,15 @@ LSDCD_FN Real spring_energy(Real force_sq, Real k)
   return k > 0 ? 0.5 * force_sq / k : 0;
 }
 
+template <class Law>
 LSDCD_FN Real springs_energy(const KeptForces &kept)
 {
-  return spring_energy(norm_sq(kept.friction_spring), kept.k_friction) +
-         spring_energy(norm_sq(kept.rolling_spring), kept.k_rolling) +
-         spring_energy(kept.twisting_spring * kept.twisting_spring, kept.k_twisting);
+  Real sum = spring_energy(norm_sq(kept.friction_spring), kept.k_friction);
+  if constexpr (Law::kContactTorque) {
+    sum += spring_energy(norm_sq(kept.rolling_spring), kept.k_rolling);
+    sum += spring_energy(kept.twisting_spring * kept.twisting_spring, kept.k_twisting);
+  }
+  return sum;
 }
 
 }    // namespace lsdcd

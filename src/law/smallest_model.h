@@ -91,14 +91,20 @@ inline JkrNormal jkr_normal(const ContactLaw &p)
   return JkrNormal(p.modulus, p.surface_energy);
 }
 
-// Calls make(law) with one of `granular`: with a set of few sub-models where the law has no others, else with one of more.
+// Returns whether a law of `granular` has other sub-models than a normal one, its damping and friction that is not rescaled.
+inline bool has_more(const ContactLaw &p)
+{
+  return p.rolling.is_on() || p.twisting.is_on() || p.has_heat() || p.rescales() ||
+         p.cohesion.is_on();
+}
+
+// Calls make(law) with one of `granular`: that of few sub-models, or that of more where has_more().
 template <GranularSet kFew, GranularSet kMore, class Make>
 auto with_granular_sets(const ContactLaw &p, const Make &make)
 {
   if (p.is(NormalModel::jkr)) return make(granular_model<true, kMore>(p, jkr_normal(p)));
   const TouchingNormal normal = touching_normal(p);
-  const bool more =
-      p.rolling.is_on() || p.twisting.is_on() || p.has_heat() || p.rescales() || p.cohesion.is_on();
+  const bool more = has_more(p);
   if (p.has_history())
     return more ? make(granular_model<true, kMore>(p, normal))
                 : make(granular_model<true, kFew>(p, normal));
@@ -120,15 +126,17 @@ auto with_granular_added_law(const ContactLaw &p, const Make &make)
   return with_granular_sets<GranularSet::midpoint, GranularSet::all>(p, make);
 }
 
-// Any law that keeps_forces or keeps_touch: calls make(law) with one that has all effects, so that few are compiled with books of energy
-// and impacts.
+// Any law that keeps_forces or keeps_touch: calls make(law) with one of few that are compiled with books of energy and impacts: that of
+// `granular` without sub-models that few scenes use, or one that has all.
 template <class Make>
 auto with_energy_law(const ContactLaw &p, const Make &make)
 {
   if (!p.is_classic()) {
     if (p.is(NormalModel::jkr))
       return make(granular_model<true, GranularSet::all>(p, jkr_normal(p)));
-    return make(granular_model<true, GranularSet::all>(p, touching_normal(p)));
+    const TouchingNormal normal = touching_normal(p);
+    return has_more(p) ? make(granular_model<true, GranularSet::all>(p, normal))
+                       : make(granular_model<true, GranularSet::either>(p, normal));
   }
   return with_classic_law(p, [&](const auto &base) {
     return make(AddedModel<std::decay_t<decltype(base)>, true>{

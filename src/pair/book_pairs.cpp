@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "law/smallest_model.h"
+#include "pair/booked_law.h"
 #include "pair/compile_pair.h"
 #include "pair/pair_energy.h"
 
@@ -13,12 +13,17 @@ namespace lsdcd {
 
 void set_book(const ContactLaw &law, PairLaw &out)
 {
-  with_energy_law(law, [&](const auto &model) {
+  with_booked_law(law, [&](const auto &model) {
     using Law = std::decay_t<decltype(model)>;
     out.booked = LawBytes(model);
     out.book = [](const LawBytes &bytes, const GrainPair &p, const PairNumbers<Real> &old,
-                  const PairNumbers<Real> &now, int width,
-                  EnergyRows &rows) { book_pair(bytes.as<Law>(), p, old, now, width, rows); };
+                  const PairNumbers<Real> &now, int width, EnergyRows &rows) {
+      const Law &of_pair = bytes.as<Law>();
+      if (!!old) book_old_pair(of_pair, p, old, width, !!now, rows);
+      if (!!now)
+        book_new_pair(
+            of_pair, [&p] { return p; }, old, now, width, rows);
+    };
   });
 }
 

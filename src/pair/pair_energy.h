@@ -43,13 +43,16 @@ LSDCD_FN PairMotion pair_motion(const Law &law, const GrainPair &p, const Vec3 &
 }
 
 // Adds half of the work that these forces do in a step.
-LSDCD_FN void add_pair_half(const PairMotion &m, const KeptForces &by, Real dt, EnergyRows &rows)
+template <class Law>
+LSDCD_FN void add_pair_half(const Law &, const PairMotion &m, const KeptForces &by, Real dt,
+                            EnergyRows &rows)
 {
   const Real half = 0.5 * dt;
   const Vec3 force = (by.elastic + by.damping) * m.n + by.friction;
-  const Vec3 contact_torque = by.rolling + by.twisting * m.n, turns = cross(m.n, by.friction);
-  rows[EnergyRow::work] -= half * (dot(force, m.v) + dot(contact_torque, m.omega()) -
-                                   dot(turns, m.arm_i * m.omega_i + m.arm_j * m.omega_j));
+  Real power = dot(force, m.v);
+  if constexpr (Law::kContactTorque) power += dot(by.rolling + by.twisting * m.n, m.omega());
+  power -= dot(cross(m.n, by.friction), m.arm_i * m.omega_i + m.arm_j * m.omega_j);
+  rows[EnergyRow::work] -= half * power;
   rows[EnergyRow::damping] -= half * by.damping * dot(m.v, m.n);
   rows[EnergyRow::lever_arms] -=
       half * dot(by.friction,
@@ -74,17 +77,21 @@ LSDCD_FN void write_kept(const KeptForces &kept, const To &numbers, int at)
   for (int k = 0; k < kKeptForces; k++) numbers[at + k] = all[k];
 }
 
-// Books the second half of what a pair has kept. `goes_on`: it still touches; else it has parted.
+// Books the second half of what a pair did in the last step, of which it has kept `numbers`. `goes_on`: it still touches; else it
+// has parted.
 template <class Law>
-LSDCD_FN void book_old_pair(const Law &law, const GrainPair &p, const KeptForces &old, bool goes_on,
-                            EnergyRows &rows)
+LSDCD_FN void book_old_pair(const Law &law, const GrainPair &p, const PairNumbers<Real> &numbers,
+                            int width, bool goes_on, EnergyRows &rows)
 {
+  const KeptForces old = read_kept(numbers, width - kKeptForces);
+  rows[EnergyRow::seen] += old.held;
+  if (!p.update) return;
   const PairMotion m = pair_motion(law, p, p.offset - p.dt * p.velocity);
-  add_pair_half(m, old, p.dt, rows);
+  add_pair_half(law, m, old, p.dt, rows);
   const Vec3 rolling = rolling_part(m.omega(), m.n);
   const Real twisting = dot(m.omega(), m.n);
   if (goes_on) {
-    rows[EnergyRow::turned_springs] += energy_left(old, m.slip, rolling, twisting, p.dt);
+    rows[EnergyRow::turned_springs] += energy_left(law, old, m.slip, rolling, twisting, p.dt);
     return;
   }
   if constexpr (Law::kBeyondContact) {
@@ -93,7 +100,7 @@ LSDCD_FN void book_old_pair(const Law &law, const GrainPair &p, const KeptForces
     rows[EnergyRow::adhesion] +=
         law.normal_energy(c, c.radius - cutoff_of(c.radius, law.elastic.pull_off));
   }
-  book_springs_at_end(old, m.n, m.slip, rolling, twisting, p.dt, rows);
+  book_springs_at_end(law, old, m.n, m.slip, rolling, twisting, p.dt, rows);
 }
 
 // Books what a pair begins with that touched nothing before. Grains that adhere jump into contact where they touch; those that
@@ -128,44 +135,56 @@ struct HeardLaw : Law {
   }
 };
 
-// Books what a pair does with energy in a step, and writes the forces that it keeps. `old_numbers`, `numbers`: the `width` numbers
-// that it had kept and keeps; null: it did not touch.
-template <class Law>
-LSDCD_FN void book_pair(const Law &law, const GrainPair &p, const PairNumbers<Real> &old_numbers,
-                        const PairNumbers<Real> &numbers, int width, EnergyRows &rows)
+// Books the first half of what a pair that touches does in this step, and its springs, and writes the forces that it keeps.
+// make_pair() returns the pair, twice: what it is read from is in caches, and the registers of a GPU are few.
+template <class Law, class MakePair>
+LSDCD_FN void book_new_pair(const Law &law, const MakePair &make_pair,
+                            const PairNumbers<Real> &old_numbers, const PairNumbers<Real> &numbers,
+                            int width, EnergyRows &rows)
 {
   const int of_law = width - kKeptForces;    // 0: laws keep nothing
-  KeptForces old = {};
-  if (!!old_numbers) {
-    old = read_kept(old_numbers, of_law);
-    rows[EnergyRow::seen] += old.held;
-    if (p.update) book_old_pair(law, p, old, !!numbers, rows);
-  }
-  if (!numbers) return;
-
   const ContactMemory<Law::kExtra> begun =
       read_memory(law, of_law > 0 ? old_numbers : PairNumbers<Real>{nullptr, 0});
   ContactMemory<Law::kExtra> memory = begun;
   PairContact c;
   FullForce f;
   PairForce unused;
-  evaluate_pair(HeardLaw<Law>{law, &c, &f}, p, memory, unused);
-  const ForceParts parts = law.parts(c, begun, p.update ? memory : begun, f);
-  KeptForces now = kept_of(c.normal, f, parts, 1, 0, 0);
+  evaluate_pair(HeardLaw<Law>{law, &c, &f}, make_pair(), memory, unused);
+  if (!c.update) memory = begun;
+  const ForceParts parts = law.parts(c, begun, memory, f);
+  KeptForces now = kept_of(law, c.normal, f, parts, 1, 0, 0);
   now.held = held_of(law, c, f, 1, now);
   write_kept(now, numbers, of_law);
   rows[EnergyRow::held] += now.held;
-  if (!p.update) return;
+  if (!c.update) return;
 
-  add_pair_half(pair_motion(law, p, p.offset), now, p.dt, rows);
+  const GrainPair p = make_pair();
+  add_pair_half(law, pair_motion(law, p, p.offset), now, p.dt, rows);
+  KeptForces old = {};
   if (!!old_numbers) {
-    for (Vec3 *h : {&old.friction, &old.friction_spring})
-      *h = turned_as(parts.friction, *h, c.normal);
-    for (Vec3 *h : {&old.rolling, &old.rolling_spring}) *h = turned_as(parts.rolling, *h, c.normal);
+    old = read_kept(old_numbers, of_law);
+    const auto turn = [&](const SpringPart &spring, Vec3 &h) {
+      h = turned_as(spring, h, c.normal);
+    };
+    turn(parts.friction, old.friction);
+    turn(parts.friction, old.friction_spring);
+    if constexpr (Law::kContactTorque) {
+      turn(parts.rolling, old.rolling);
+      turn(parts.rolling, old.rolling_spring);
+    }
   } else {
     begin_pair(law, p, c, rows);
   }
-  book_springs(c, parts, 1, now, old, rows);
+  book_springs(law, c, parts, 1, now, old, rows);
+}
+
+// Returns whether pairs with this law add to a row.
+template <class Law>
+LSDCD_FN constexpr bool books_row(EnergyRow row)
+{
+  if (row == EnergyRow::drive || row == EnergyRow::wear) return false;
+  if (row == EnergyRow::rolling || row == EnergyRow::twisting) return Law::kContactTorque;
+  return row != EnergyRow::adhesion || Law::kBeyondContact;
 }
 
 }    // namespace lsdcd

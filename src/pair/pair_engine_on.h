@@ -156,7 +156,7 @@ class PairEngineOn : public PairEngine {
     });
     for (std::size_t kind = 0; kind < books_.size(); kind++) {
       s.kind = static_cast<int>(kind);
-      books_[kind].run(s, energy, is_booked, b_);
+      books_[kind].run(s, books_[kind].law, energy, is_booked, b_);
     }
     EnergyRows sum;
     energy_sums_.sum(b_, {n, energy, is_booked, nullptr}, 1, &sum);

@@ -137,7 +137,8 @@ struct PairLaw {
   // Computes them in vectors, in steps in which springs move; prepare() has been called for these lanes. Null: there is no such loop.
   void (*evaluate_wide)(const LawBytes &, PairLanes &, int n, Real dt);
   void (*prepare)(const LawBytes &, PairLanes &);
-  // The law with all effects, which books energy, and its book_pair() (pair_energy.h). Null: pairs do not keep their forces.
+  // The law that books energy, and what it does to a pair that touches now or did a step ago (pair_energy.h). Null: pairs do not keep
+  // their forces.
   LawBytes booked;
   void (*book)(const LawBytes &, const GrainPair &, const PairNumbers<Real> &old,
                const PairNumbers<Real> &now, int width, EnergyRows &);

@@ -316,7 +316,7 @@ struct PairBookOn {
   LawBytes law;
   // Adds what the pairs whose laws are of the kind do to sums[k], of so many rows each as threads share their work, and marks those
   // that have any.
-  void (*run)(const PairStepView &, EnergyRows *sums, char *is_booked, B &);
+  void (*run)(const PairStepView &, const LawBytes &, EnergyRows *sums, char *is_booked, B &);
 };
 template <class B>
 PairBookOn<B> pair_book_on(const ContactLaw &law);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Which compiled law a scene gets: one that computes what is asked for, as the law with all sub-models does, and no more.
-#include "law/smallest_model.h"
+#include "pair/booked_law.h"
 
 #include "support/random.h"
 
@@ -33,21 +33,39 @@ ContactLaw law_with(NormalModel normal, TangentialModel tangential)
 }
 
 // Every law of normal force and friction alone.
-std::vector<ContactLaw> laws_of_few()
+std::vector<ContactLaw> laws_of_few(bool booked)
 {
   std::vector<ContactLaw> laws;
   for (const NormalModel normal : {NormalModel::hooke, NormalModel::hertz, NormalModel::dmt})
     for (int k = static_cast<int>(TangentialModel::linear_nohistory);
-         k < static_cast<int>(TangentialModel::mindlin_rescale); k++)
+         k < static_cast<int>(TangentialModel::mindlin_rescale); k++) {
       laws.push_back(law_with(normal, static_cast<TangentialModel>(k)));
+      laws.back().keeps_forces = booked;
+    }
+  return laws;
+}
+// These, with books of energy and without.
+std::vector<ContactLaw> laws_of_few()
+{
+  std::vector<ContactLaw> laws = laws_of_few(false), booked = laws_of_few(true);
+  laws.insert(laws.end(), booked.begin(), booked.end());
   return laws;
 }
 
-// Calls act(law) with the compiled law of a wall or of pairs.
+// Calls act(law) with the compiled law of a wall or of pairs; with_booked_granular() with one that books energy.
+template <class Act>
+void with_booked_granular(const ContactLaw &p, const Act &act)
+{
+  with_energy_law(p, [&](const auto &law) {
+    if constexpr (!std::decay_t<decltype(law)>::kWholeArms) act(law);    // none of a classic style
+  });
+}
 template <class Act>
 void with_law(const ContactLaw &p, const Act &act)
 {
-  if (p.is_extended())
+  if (p.keeps_forces)
+    with_booked_granular(p, act);
+  else if (p.is_extended())
     with_granular_added_law(p, act);
   else
     with_granular_law(p, act);
@@ -56,7 +74,7 @@ void with_law(const ContactLaw &p, const Act &act)
 std::string name_of(const ContactLaw &p)
 {
   return "normal " + std::to_string(static_cast<int>(p.normal)) + ", tangential " +
-         std::to_string(static_cast<int>(p.tangential));
+         std::to_string(static_cast<int>(p.tangential)) + (p.keeps_forces ? ", booked" : "");
 }
 
 TEST(smallest_model, has_no_sub_model_that_few_scenes_use)
@@ -140,6 +158,79 @@ void expect_forces_of_all()
     });
 }
 
+void expect_same_spring(const SpringPart &found, const SpringPart &expected, const ContactLaw &p)
+{
+  ASSERT_EQ(found.begins, expected.begins) << name_of(p);
+  ASSERT_EQ(found.ends, expected.ends) << name_of(p);
+  ASSERT_EQ(found.k, expected.k) << name_of(p);
+  ASSERT_EQ(found.projected, expected.projected) << name_of(p);
+}
+
+// Two laws say the same of a contact. All, of which `law` has less.
+template <class C, class Law, class All>
+void expect_same_parts(const Law &law, const All &all, const ContactLaw &p)
+{
+  Random random(7);
+  for (int step = 0; step < 200; step++) {
+    const C c = contact_on_its_way<C>(random);
+    ContactMemory<Law::kExtra> begun = {}, memory;
+    begun.shear = in_plane(uniform(random, {-1e-3, -1e-3, -1e-3}, {1e-3, 1e-3, 1e-3}), c.normal);
+    memory = begun;
+    ContactMemory<All::kExtra> begun_of_all = {}, memory_of_all;
+    begun_of_all.shear = begun.shear;
+    memory_of_all = begun_of_all;
+    const FullForce force = law.evaluate(c, memory), of_all = all.evaluate(c, memory_of_all);
+    ASSERT_EQ(force.normal, of_all.normal) << name_of(p);
+    ASSERT_EQ(force.energy, of_all.energy) << name_of(p);
+    const ForceParts found = law.parts(c, begun, memory, force),
+                     expected = all.parts(c, begun_of_all, memory_of_all, of_all);
+    ASSERT_EQ(found.elastic, expected.elastic) << name_of(p);
+    ASSERT_EQ(found.slides, expected.slides) << name_of(p);
+    expect_same_spring(found.friction, expected.friction, p);
+    expect_same_spring(found.rolling, expected.rolling, p);
+    expect_same_spring(found.twisting, expected.twisting, p);
+    ASSERT_EQ(law.normal_energy(c, 0.01), all.normal_energy(c, 0.01)) << name_of(p);
+  }
+}
+
+TEST(smallest_model, says_what_its_force_is_made_of_as_the_law_with_all)
+{
+  for (const ContactLaw &p : laws_of_few(true))
+    with_booked_granular(p, [&](const auto &law) {
+      const All all = granular_model<true, GranularSet::all>(p, touching_normal(p));
+      expect_same_parts<Contact>(law, all, p);
+      expect_same_parts<PairContact>(law, all, p);
+    });
+}
+TEST(smallest_model, of_booked_pairs_is_a_classic_style_alone)
+{
+  for (ContactLaw p :
+       {classic_law(NormalModel::hooke, false), classic_law(NormalModel::hooke, true),
+        classic_law(NormalModel::hertz, true)}) {
+    p.k_normal = 1e4;
+    p.eta = 20;
+    p.k_tangent = 3e3;
+    p.gamma_tangent = 5;
+    p.mu = 0.4;
+    p.keeps_forces = true;
+    with_booked_law(p, [&](const auto &law) {
+      using Law = std::decay_t<decltype(law)>;
+      if constexpr (Law::kWholeArms && !Law::kContactTorque)
+        with_classic_law(p, [&](const auto &base) {
+          using Base = std::decay_t<decltype(base)>;
+          if constexpr (std::is_base_of_v<Base, Law>)
+            expect_same_parts<PairContact>(
+                law, AddedModel<Base, true>{base, {RollingModel::none, {}}, {0}, p.k_tangent}, p);
+          else
+            ADD_FAILURE() << "another style: " << name_of(p);
+        });
+      else
+        ADD_FAILURE() << "no law of its own: " << name_of(p);
+    });
+    p.rolling = RollingModel::epsd2;
+    with_booked_law(p, [&](const auto &law) { EXPECT_TRUE(law.kContactTorque) << name_of(p); });
+  }
+}
 TEST(smallest_model, gives_the_forces_of_the_law_with_all_at_a_wall)
 {
   expect_forces_of_all<Contact>();

@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -162,9 +163,10 @@ TEST(warps, list_what_a_thread_lists)
 // Spheres of a cloud, of which the list has all that follow one in its row, in up to three words. Some touch, of which most did a step
 // ago; some have parted.
 struct Cloud : GrainRows {
-  static constexpr int kGrains = 75, kWords = 3, kWidth = 3 + kKeptForces;
+  static constexpr int kGrains = 75, kWords = 3;
 
-  Cloud() : GrainRows(kGrains, kGrains)
+  // `laws`: so many are looked up by type, or the one is in the kernel.
+  Cloud(bool rolls, int laws) : GrainRows(kGrains, kGrains), n_laws(laws)
   {
     Random random(11);
     const auto fill = [&](std::vector<Real> &all, Real most) {
@@ -180,6 +182,9 @@ struct Cloud : GrainRows {
     law.k_tangent = 300;
     law.xgammat = 1;
     law.mu = 0.4;
+    law.keeps_forces = true;
+    if (rolls) law.rolling = {RollingModel::sds, {300, 2, 0.3}};
+    const int width = 3 + law.n_extra();
     for (Real &one : radius) one = uniform(random, 0.3, 0.5);
     for (int i = 0; i < kGrains; i++) {
       length[i] = kGrains - 1 - i;
@@ -199,8 +204,8 @@ struct Cloud : GrainRows {
         n_old += was;
       }
     }
-    numbers.resize(std::size_t(n_now) * kWidth);
-    old_numbers.resize(std::size_t(n_old) * kWidth);
+    numbers.resize(std::size_t(n_now) * width);
+    old_numbers.resize(std::size_t(n_old) * width);
     book(CpuBackend(), {old_words.data(), old_first.data(), old_numbers.data(), std::size_t(n_old)},
          {});
   }
@@ -226,7 +231,7 @@ struct Cloud : GrainRows {
     s.words = kWords;
     s.now = now;
     s.old = old;
-    s.width = kWidth;
+    s.width = 3 + law.n_extra();
     s.law_of = s.kind_of = zeros.data();
     s.n_types = 2;
     s.n_pairs = &n_places;
@@ -250,11 +255,11 @@ struct Cloud : GrainRows {
     const std::size_t share = std::decay_t<B>::kOnCpu ? 1 : kWarpSize;
     std::vector<EnergyRows> sums((kGrains + share - 1) / share);
     std::vector<char> is_booked(sums.size());
-    with_energy_law(law, [&](const auto &model) {
+    s.n_laws = n_laws;
+    with_booked_law(law, [&](const auto &model) {
       const LawBytes bytes(model);
       s.laws = &bytes;
-      b.for_each_in_warps(
-          kGrains, BookPairs<std::decay_t<decltype(model)>>{s, sums.data(), is_booked.data()});
+      run_pair_book<std::decay_t<decltype(model)>>(s, bytes, sums.data(), is_booked.data(), b);
     });
     for (std::size_t k = 0; k < sums.size(); k++)
       EXPECT_TRUE(is_booked[k] || sums[k][EnergyRow::held] == 0);
@@ -266,7 +271,7 @@ struct Cloud : GrainRows {
   std::vector<int> first, old_first, zeros = std::vector<int>(4);
   std::vector<std::uint32_t> words = std::vector<std::uint32_t>(kWords * kGrains),
                              old_words = words;
-  int n_now = 0, n_old = 0;
+  int n_now = 0, n_old = 0, n_laws;
   std::uint32_t n_places = 0;
 };
 
@@ -274,7 +279,7 @@ struct Cloud : GrainRows {
 template <bool kFull>
 void expect_same_forces()
 {
-  Cloud alone, shared;
+  Cloud alone(false, 1), shared(false, 1);
   alone.add<kFull>(CpuBackend());
   shared.add<kFull>(WarpBackend());
   EXPECT_EQ(alone.numbers, shared.numbers);
@@ -299,9 +304,10 @@ TEST(warps, add_the_forces_of_a_full_list)
   expect_same_forces<true>();
 }
 
-TEST(warps, share_the_pairs_that_they_book)
+// The sums and the kept forces of a GPU, with as many laws, are those of a CPU.
+void expect_shared(bool rolls, int n_laws)
 {
-  Cloud alone, shared;
+  Cloud alone(rolls, 2), shared(rolls, n_laws);
   const std::vector<EnergyRows> rows = alone.book(CpuBackend()), sums = shared.book(WarpBackend());
   ASSERT_GT(alone.n_now, 200);
   ASSERT_EQ(sums.size(), 3u);
@@ -313,9 +319,17 @@ TEST(warps, share_the_pairs_that_they_book)
       size += std::abs(one.of[row]);
     }
     for (const EnergyRows &one : sums) of_sums += one.of[row];
-    // Sums of less than 3000 numbers in another order.
-    EXPECT_NEAR(of_sums, of_rows, 3000 * 1.2e-16 * size) << "row " << row;
+    // Sums of less than 6000 numbers, two of a pair, in another order.
+    EXPECT_NEAR(of_sums, of_rows, 6000 * 1.2e-16 * size) << "row " << row;
   }
+  EXPECT_EQ(rolls, std::any_of(rows.begin(), rows.end(),
+                               [](const EnergyRows &one) { return one[EnergyRow::rolling] != 0; }));
+}
+
+TEST(warps, share_the_pairs_that_they_book)
+{
+  for (const bool rolls : {false, true})
+    for (const int n_laws : {1, 2}) expect_shared(rolls, n_laws);
 }
 
 }    // namespace

@@ -93,6 +93,8 @@ struct OnWall : Law, LossesOnWall<kEnergy_ && kRecords_> {
   static constexpr bool kPosed = kPosed_, kKeepsContacts = kKeepsContacts_, kNodes = kNodes_,
                         kEnergy = kEnergy_, kRecords = kRecords_;
   static constexpr bool kShapes = IsShapeLaw<Law>::value;
+  // Does a contact store numbers beside its shear displacement? See n_stored().
+  static constexpr bool kStoresExtra = Law::kExtra > 0 || kEnergy;
   // A setup stores what contacts keep; it does not move their springs.
   static constexpr bool kSetsUp = kEnergy || kRecords;
 };

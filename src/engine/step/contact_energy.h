@@ -95,10 +95,10 @@ LSDCD_FN SpringLoss spring_loss_at_end(const Vec3 &path, const Vec3 &old, const 
 }
 
 // Returns what a contact keeps whose force `f` has these parts, but for `held`; `weight`: of the contact.
-LSDCD_FN KeptForces kept_of(const Vec3 &n, const FullForce &f, const ForceParts &parts, Real weight,
-                            Real distance, Real arm)
+template <class Law>
+LSDCD_FN KeptForces kept_of(const Law &, const Vec3 &n, const FullForce &f, const ForceParts &parts,
+                            Real weight, Real distance, Real arm)
 {
-  const Real twisting = dot(f.contact_torque, n);
   KeptForces now = {};
   now.weight = weight;
   now.elastic = weight * parts.elastic;
@@ -107,13 +107,16 @@ LSDCD_FN KeptForces kept_of(const Vec3 &n, const FullForce &f, const ForceParts 
   now.arm = arm;
   now.friction = weight * f.tangential;
   now.friction_spring = weight * parts.friction.force();
-  now.rolling = weight * (f.contact_torque - twisting * n);
-  now.rolling_spring = weight * parts.rolling.force();
-  now.twisting = weight * twisting;
-  now.twisting_spring = weight * dot(parts.twisting.force(), n);
   now.k_friction = weight * parts.friction.k;
-  now.k_rolling = weight * parts.rolling.k;
-  now.k_twisting = weight * parts.twisting.k;
+  if constexpr (Law::kContactTorque) {
+    const Real twisting = dot(f.contact_torque, n);
+    now.rolling = weight * (f.contact_torque - twisting * n);
+    now.rolling_spring = weight * parts.rolling.force();
+    now.twisting = weight * twisting;
+    now.twisting_spring = weight * dot(parts.twisting.force(), n);
+    now.k_rolling = weight * parts.rolling.k;
+    now.k_twisting = weight * parts.twisting.k;
+  }
   return now;
 }
 
@@ -123,59 +126,82 @@ LSDCD_FN Real held_of(const Law &law, const C &c, const FullForce &f, Real weigh
                       const KeptForces &now)
 {
   return c.update ? weight * f.energy
-                  : weight * law.normal_energy(c, c.overlap) + springs_energy(now);
+                  : weight * law.normal_energy(c, c.overlap) + springs_energy<Law>(now);
 }
 
-// Adds what sliding, rolling and twisting lose.
-LSDCD_FN void add_losses(const SpringLoss &sliding, const SpringLoss &rolling,
-                         const SpringLoss &twisting, EnergyRows &rows)
+// Add what sliding loses; with rolling and twisting.
+LSDCD_FN void add_losses(const SpringLoss &sliding, EnergyRows &rows)
 {
   rows[EnergyRow::slider] += sliding.slider;
   rows[EnergyRow::damping] += sliding.dashpot;
+  rows[EnergyRow::stiffness] += sliding.stiffness;
+}
+LSDCD_FN void add_losses(SpringLoss sliding, const SpringLoss &rolling, const SpringLoss &twisting,
+                         EnergyRows &rows)
+{
   rows[EnergyRow::rolling] += rolling.slider + rolling.dashpot;
   rows[EnergyRow::twisting] += twisting.slider + twisting.dashpot;
-  rows[EnergyRow::stiffness] += sliding.stiffness + rolling.stiffness + twisting.stiffness;
+  sliding.stiffness = sliding.stiffness + rolling.stiffness + twisting.stiffness;
+  add_losses(sliding, rows);
 }
 
 // Returns the stored energy of springs whose forces these are, less the second half of their work in a step with such velocities.
-LSDCD_FN Real energy_left(const KeptForces &old, const Vec3 &slip, const Vec3 &rolling,
+template <class Law>
+LSDCD_FN Real energy_left(const Law &, const KeptForces &old, const Vec3 &slip, const Vec3 &rolling,
                           Real twisting, Real dt)
 {
-  return springs_energy(old) -
-         0.5 * dt * (dot(old.friction, slip) + dot(old.rolling, rolling) + old.twisting * twisting);
+  Real power = dot(old.friction, slip);
+  if constexpr (Law::kContactTorque)
+    power = power + dot(old.rolling, rolling) + old.twisting * twisting;
+  return springs_energy<Law>(old) - 0.5 * dt * power;
 }
 
 // Books the springs of a contact. `weight`: of the contact; `old`: what it has taken over, in the plane of its normal.
-template <class C>
-LSDCD_FN void book_springs(const C &c, const ForceParts &parts, Real weight, const KeptForces &now,
-                           const KeptForces &old, EnergyRows &rows)
+template <class Law, class C>
+LSDCD_FN void book_springs(const Law &law, const C &c, const ForceParts &parts, Real weight,
+                           const KeptForces &now, const KeptForces &old, EnergyRows &rows)
 {
   const auto weighted = [weight](SpringPart spring) {
     spring.k *= weight;
     return spring;
   };
-  const Vec3 &n = c.normal, rolling = rolling_part(c.omega, n);
-  const Real twisting = dot(c.omega, n);
-  add_losses(spring_loss(weighted(parts.friction), parts.slides, c.dt * c.v_tangent, now.friction,
-                         old.friction, old.friction_spring, old.k_friction),
-             spring_loss(weighted(parts.rolling), false, c.dt * parts.rolls, now.rolling,
-                         old.rolling, old.rolling_spring, old.k_rolling),
-             spring_loss(weighted(parts.twisting), false, (c.dt * twisting) * n, now.twisting * n,
-                         old.twisting * n, old.twisting_spring * n, old.k_twisting),
-             rows);
-  rows[EnergyRow::lever_arms] -= 0.5 * c.dt * dot(now.rolling + old.rolling, rolling - parts.rolls);
-  rows[EnergyRow::turned_springs] -= energy_left(old, c.v_tangent, rolling, twisting, c.dt);
+  const SpringLoss sliding =
+      spring_loss(weighted(parts.friction), parts.slides, c.dt * c.v_tangent, now.friction,
+                  old.friction, old.friction_spring, old.k_friction);
+  if constexpr (Law::kContactTorque) {
+    const Vec3 &n = c.normal, rolling = rolling_part(c.omega, n);
+    const Real twisting = dot(c.omega, n);
+    add_losses(sliding,
+               spring_loss(weighted(parts.rolling), false, c.dt * parts.rolls, now.rolling,
+                           old.rolling, old.rolling_spring, old.k_rolling),
+               spring_loss(weighted(parts.twisting), false, (c.dt * twisting) * n, now.twisting * n,
+                           old.twisting * n, old.twisting_spring * n, old.k_twisting),
+               rows);
+    rows[EnergyRow::lever_arms] -=
+        0.5 * c.dt * dot(now.rolling + old.rolling, rolling - parts.rolls);
+    rows[EnergyRow::turned_springs] -= energy_left(law, old, c.v_tangent, rolling, twisting, c.dt);
+  } else {
+    add_losses(sliding, rows);
+    rows[EnergyRow::turned_springs] -= energy_left(law, old, c.v_tangent, {0, 0, 0}, 0, c.dt);
+  }
 }
 
 // Books the springs of a contact that has ended.
-LSDCD_FN void book_springs_at_end(const KeptForces &old, const Vec3 &n, const Vec3 &slip,
-                                  const Vec3 &rolling, Real twisting, Real dt, EnergyRows &rows)
+template <class Law>
+LSDCD_FN void book_springs_at_end(const Law &, const KeptForces &old, const Vec3 &n,
+                                  const Vec3 &slip, const Vec3 &rolling, Real twisting, Real dt,
+                                  EnergyRows &rows)
 {
-  add_losses(spring_loss_at_end(dt * slip, old.friction, old.friction_spring, old.k_friction),
-             spring_loss_at_end(dt * rolling, old.rolling, old.rolling_spring, old.k_rolling),
-             spring_loss_at_end((dt * twisting) * n, old.twisting * n, old.twisting_spring * n,
-                                old.k_twisting),
-             rows);
+  const SpringLoss sliding =
+      spring_loss_at_end(dt * slip, old.friction, old.friction_spring, old.k_friction);
+  if constexpr (Law::kContactTorque)
+    add_losses(sliding,
+               spring_loss_at_end(dt * rolling, old.rolling, old.rolling_spring, old.k_rolling),
+               spring_loss_at_end((dt * twisting) * n, old.twisting * n, old.twisting_spring * n,
+                                  old.k_twisting),
+               rows);
+  else
+    add_losses(sliding, rows);
 }
 
 // add() takes each contact of the step, then close() those of the last one.
@@ -191,7 +217,7 @@ struct EnergyBook {
   {
     const Contact &c = b.c;
     const Vec3 &n = c.normal;
-    KeptForces now = kept_of(n, b.f, b.parts, b.weight, b.distance, b.arm);
+    KeptForces now = kept_of(law, n, b.f, b.parts, b.weight, b.distance, b.arm);
     now.held = held_of(law, c, b.f, b.weight, now);
     memcpy(to + n_extra(law), &now, sizeof now);
     if constexpr (Law::kNodes) {
@@ -213,7 +239,7 @@ struct EnergyBook {
     if (settings.receded) recede(wall, b.feature, s.x - b.distance * n, settings.receded, n, now);
     KeptForces old = {};
     if (in.from >= 0) old = handed_on(law, settings, s, in, n);
-    book_springs(c, b.parts, b.weight, now, old, rows);
+    book_springs(law, c, b.parts, b.weight, now, old, rows);
   }
 
   // Books the second half of the last step's contacts with this mesh, and the rest of those that have ended.
@@ -248,9 +274,9 @@ struct EnergyBook {
       const Real twisting = dot(turn, n);
       if (!EnergyMarks::is_marked(marks.goes_on, k)) let_go(law, s, old);
       if (EnergyMarks::is_marked(marks.taken, k))
-        rows[EnergyRow::turned_springs] += energy_left(old, slip, rolling, twisting, dt);
+        rows[EnergyRow::turned_springs] += energy_left(law, old, slip, rolling, twisting, dt);
       else
-        book_springs_at_end(old, n, slip, rolling, twisting, dt, rows);
+        book_springs_at_end(law, old, n, slip, rolling, twisting, dt, rows);
       if constexpr (Law::kLosses)
         put_losses(law, settings, s, k, before, s.x - dt * m.v - old.distance * n, marks, records);
     }
@@ -352,7 +378,8 @@ struct EnergyBook {
     if constexpr (Law::kNodes)
       if (settings.nodes.velocity && is_own(s.springs, in.from))
         was = kept_at_nodes(law, s, in.from).normal;
-    for (Vec3 *h : vectors) {
+    for (int k = 0; k < (Law::kContactTorque ? 4 : 2); k++) {
+      Vec3 *const h = vectors[k];
       if constexpr (Law::kNodes)
         if (!(was == Vec3{0, 0, 0})) *h = transport(*h, was, s.springs[in.from].normal);
       *h = lsdcd::handed_on(in_own_frame(s.springs, in.from, *h), in, s.springs, n);
@@ -364,12 +391,20 @@ struct EnergyBook {
     return old;
   }
 
+  LSDCD_FN static Vec3 contact_torque([[maybe_unused]] const Vec3 &n,
+                                      [[maybe_unused]] const KeptForces &by)
+  {
+    if constexpr (Law::kContactTorque)
+      return by.rolling + by.twisting * n;
+    else
+      return {0, 0, 0};
+  }
   // Adds half of the work that these forces do in a step.
   LSDCD_FN void add_half(const RelativeMotion &m, const Vec3 &n, const KeptForces &by, Real dt)
   {
     const Real half = 0.5 * dt;
     const Vec3 force = (by.elastic + by.damping) * n + by.friction;
-    const Vec3 torque = by.rolling + by.twisting * n - by.arm * cross(n, by.friction);
+    const Vec3 torque = contact_torque(n, by) - by.arm * cross(n, by.friction);
     rows[EnergyRow::work] -= half * (dot(force, m.v) + dot(torque, m.omega));
     rows[EnergyRow::drive] += half * (dot(force, m.wall) + dot(torque, m.spin));
     rows[EnergyRow::damping] -= half * by.damping * dot(m.v, n);
@@ -385,7 +420,7 @@ struct EnergyBook {
     const Vec3 velocity = field_at(at, nodes.velocity), spin = field_at(at, nodes.spin);
     m.wall += velocity;
     m.v -= velocity;
-    rows[EnergyRow::lever_arms] -= 0.5 * dt * dot(by.rolling + by.twisting * n, spin);
+    rows[EnergyRow::lever_arms] -= 0.5 * dt * dot(contact_torque(n, by), spin);
     return spin;
   }
   // Adds half of what these forces lose as wear moves the wall at a point of a feature.

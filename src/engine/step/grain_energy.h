@@ -79,7 +79,7 @@ void add_grain(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wa
 {
   const Contact &c = b.c;
   const Vec3 &n = c.normal;
-  KeptForces now = kept_of(n, b.f, b.parts, b.weight, b.distance, b.arm);
+  KeptForces now = kept_of(law, n, b.f, b.parts, b.weight, b.distance, b.arm);
   now.held = held_of(law, c, b.f, b.weight, now);
   now.rolling = cross(at.arm, (now.elastic + now.damping) * n + now.friction) + at.couple;
   memcpy(to + n_extra(law), &now, sizeof now);
@@ -98,7 +98,7 @@ void add_grain(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wa
   if (in.from >= 0) old = EnergyBook<Law>::handed_on(law, settings, s, in, n);
   if (goes_on && law.reads_radius)
     book.rows[EnergyRow::stiffness] += loss_by_radius(law, c, b.weight, old);
-  book_springs(c, b.parts, b.weight, now, old, book.rows);
+  book_springs(law, c, b.parts, b.weight, now, old, book.rows);
 }
 
 // As EnergyBook::close(), of grain i, which may be a sphere.
@@ -135,9 +135,9 @@ void close_grain(const Law &law, const StepJob &job, const LawAtMesh<Law> &mesh,
     if (settings.receded)
       book.recede(wall, feature, s.x - dt * m.v - from_foot, settings.receded, n, old);
     if (EnergyMarks::is_marked(marks.taken, k))
-      rows[EnergyRow::turned_springs] += energy_left(old, along, {0, 0, 0}, 0, dt);
+      rows[EnergyRow::turned_springs] += energy_left(law, old, along, {0, 0, 0}, 0, dt);
     else
-      book_springs_at_end(old, n, along, {0, 0, 0}, 0, dt, rows);
+      book_springs_at_end(law, old, n, along, {0, 0, 0}, 0, dt, rows);
     if constexpr (Law::kLosses)
       book.put_losses(law, settings, s, k, before, s.x - dt * m.v - from_foot, marks, job.records);
   }

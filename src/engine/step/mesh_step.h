@@ -42,7 +42,7 @@ LSDCD_FN SphereState state_at(const Law &law, const StepJob &job, std::size_t i,
     s.n_springs = job.springs.count[i];
     const std::size_t first = s.n_springs > 0 ? job.springs.first[i] : 0;
     s.springs = job.springs.pool + first;
-    if constexpr (Law::kExtra > 0) s.extra = job.springs.extra + first * n_stored(law);
+    if constexpr (Law::kStoresExtra) s.extra = job.springs.extra + first * n_stored(law);
   }
   return s;
 }
@@ -79,7 +79,7 @@ LSDCD_FN bool reserve_places(const Law &law, const StepJob &job, std::size_t k, 
       if (first > pool.size - n) return false;
     }
     if constexpr (Law::kHistory) sink.springs = pool.springs + first;
-    if constexpr (Law::kExtra > 0) sink.extra = pool.extra + std::size_t(first) * n_stored(law);
+    if constexpr (Law::kStoresExtra) sink.extra = pool.extra + std::size_t(first) * n_stored(law);
     if constexpr (Law::kKeepsContacts) sink.contacts = pool.contacts + first;
   }
   return true;
@@ -221,7 +221,7 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     }
     if constexpr (Law::kRecords) to_mesh.records = job.records;
     if constexpr (Law::kHistory) to_mesh.springs += n_done;
-    if constexpr (Law::kExtra > 0) to_mesh.extra += n_done * n_stored(law);
+    if constexpr (Law::kStoresExtra) to_mesh.extra += n_done * n_stored(law);
     if constexpr (Law::kKeepsContacts) to_mesh.contacts += n_done;
     if constexpr (Law::kHeat)
       if (law.has_heat()) {
@@ -406,7 +406,7 @@ struct MeshStep {
   // Blocks at once on a GPU's processor: 128 or 168 registers are left to a thread. With fewer
   // the kernels spill, which costs more than more blocks bring.
   static constexpr bool kLarge =
-      Law::kExtra > 0 || Law::kContactTorque || Law::kHeat || Law::kBeyondContact;
+      Law::kStoresExtra || Law::kContactTorque || Law::kHeat || Law::kBeyondContact;
   static constexpr int kBlocksAtOnce = kLarge ? 3 : 4;
 
   bool has_fast_path() const { return job.lists.n; }

@@ -230,7 +230,7 @@ struct AtMeshes {
     state.radius = radius;
     state.springs = seen.springs;
     state.n_springs = seen.n_springs;
-    if constexpr (Law::kExtra > 0)
+    if constexpr (Law::kStoresExtra)
       if (seen.n_springs > 0)
         state.extra = job.springs.extra + std::size_t(job.springs.first[i]) * n_stored(law);
     return state;

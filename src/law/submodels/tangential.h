@@ -153,12 +153,13 @@ struct GranularFriction {
   }
   // Returns the spring of a step with the memory before and after it. `at`, `limit`: of rescale_spring() and spring_force().
   template <class C, class Memory>
-  LSDCD_FN SpringPart part(const C &c, Real a, const Memory &begun, const Memory &now, int at,
-                           [[maybe_unused]] Real limit) const
+  LSDCD_FN SpringPart part(const C &c, Real a, const Memory &begun, const Memory &now,
+                           [[maybe_unused]] int at, [[maybe_unused]] Real limit) const
   {
     const Real stiff = stiffness(a);
     Vec3 begins = begun.shear;
-    if (rescale && a < begun.extra[at]) begins = (a / begun.extra[at]) * begins;
+    if constexpr (Memory::kSize > 0)
+      if (rescale && a < begun.extra[at]) begins = (a / begun.extra[at]) * begins;
     if constexpr (C::kPair)
       if (c.update)
         begins = at_midpoint ? in_plane(begins, c.normal)
