@@ -16,7 +16,6 @@
 #include "wall/spec/spec_text.h"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -333,15 +332,15 @@ void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
                  "grains that are no spheres have walls for arrays of the host alone; leave it 0");
 }
 
-// Refuses an output with the name of a file that a mesh was read from. The names of series have steps, which are not known yet.
+// Refuses an output that would replace a file that a mesh was read from, in the first step of the wall or a later one.
 void check_files(const lsdcd_wall_spec &given, const WallSpec &wall)
 {
-  constexpr long long kNoMoreSteps = std::numeric_limits<long long>::max();
+  constexpr long long kBeforeAllSteps = 0;
   for (std::size_t k = 0; k < given.n_meshes; k++) {
     const std::string &read = given.meshes[k].mesh->in->file;
     if (read.empty()) continue;
     for (const RunFile &file : files_of(wall))
-      check_apart(file, {"mesh", read}, "`" + element("meshes", k) + ".mesh`", kNoMoreSteps);
+      check_apart(file, {"mesh", read}, "`" + element("meshes", k) + ".mesh`", kBeforeAllSteps);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "support/temp_dir.h"
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -1111,6 +1112,21 @@ TEST_F(wall_spec, writes_no_file_over_that_of_a_mesh)
     EXPECT_EQ(wrong.text(), "");
   }
   EXPECT_EQ(bytes_of(file_), before);
+}
+
+TEST_F(wall_spec, writes_no_series_over_the_file_of_a_mesh)
+{
+  const std::string folder = testing::TempDir(), series = folder + "series_*.stl";
+  std::filesystem::copy_file(file_, folder + "series_30.stl",
+                             std::filesystem::copy_options::overwrite_existing);
+  const api::Mesh mesh(folder + "series_30.stl");
+  Wrong wrong(mesh);
+  wrong.meshes[0].stl = series.c_str();
+  wrong.meshes[0].stl_every = 10;
+  EXPECT_TRUE(
+      lsdcd::says(wrong.text(), {"in 'mesh_stl', '" + series + "' is ", "name another file"}));
+  wrong.meshes[0].stl_every = 20;    // it writes no step 30
+  EXPECT_EQ(wrong.text(), "");
 }
 
 // A sphere with a spring at its limit slides at the speed 2 with the force mu kn 0.03 = 15, one that is lifted has left what its spring held.
