@@ -202,10 +202,13 @@ void FixSpringsLsdcd::tell_cleared()
 double FixSpringsLsdcd::near_images() const
 {
   const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
-  double least = image_reach;
+  // Of two images in a list one may touch. Lists that do not ask for radii, as those of adhesion, reach as far as a pair style says.
+  const double touch = largest_pair + (watches_radii ? neighbor->skin : 0),
+               reach = touch + std::max(touch + neighbor->skin, neighbor->cutneighmax);
+  double least = reach;
   for (int k = 0; k < 3; k++)
     if (box.periodic[k]) least = std::min(least, box.width(k));
-  return least < image_reach ? least / 2 : 0;
+  return least < reach ? least / 2 : 0;
 }
 
 std::vector<double> FixSpringsLsdcd::numbers_of(int row, int place)

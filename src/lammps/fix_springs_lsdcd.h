@@ -115,7 +115,7 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   // numbers were cleared since this was told.
   bool by_law = false, watches_types = false, cleared = false;
   std::vector<int> listed_type;
-  double image_reach = 0;    // a grain may touch two images of another that are no further apart
+  double largest_pair = 0;    // the distance at which the two largest grains touch
   // Commands between runs may give atoms other IDs: that under which partners know an atom, 0: it is new.
   bool between_runs = true;
   std::vector<tagint> known_as;

@@ -291,7 +291,7 @@ void PairGranularLsdcd::set_springs()
                      [this](int i, int j) { return numbers[law_index(i, j)].history_kind(); }});
   double largest = 0;
   for (const Radii &r : radii) largest = std::max({largest, r.moving, r.frozen});
-  springs->image_reach = 2 * radii2cut(largest, largest) + neighbor->skin;    // radii may grow
+  springs->largest_pair = radii2cut(largest, largest);
 }
 
 // Before lists are made anew the springs go from pairs to atoms, whose indices must be those of the last step.
@@ -514,7 +514,7 @@ bool PairGranularLsdcd::types_may_have_changed() const
 {
   if (laws.size() < 2 || update->setupflag || neighbor->ago == 0) return false;
   const bigint now = update->ntimestep;
-  return (now == update->firststep + 1 && set_up_at != update->firststep) ||
+  return now == update->firststep + 1 ||
          std::any_of(retyping.begin(), retyping.end(),
                      [now](int every) { return now % every == 0 || now % every == 1; });
 }
@@ -522,7 +522,6 @@ bool PairGranularLsdcd::types_may_have_changed() const
 // Ghost atoms get their types with new lists only, and the two processes of a pair would take different laws.
 void PairGranularLsdcd::share_types()
 {
-  if (update->setupflag) set_up_at = update->ntimestep;
   if (!types_may_have_changed()) return;
   sends_types = true;
   send_to_ghosts();

@@ -88,7 +88,6 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
       without_law;    // types that cannot be mixed, and why; within a hybrid style they may have another style
   std::vector<Radii> radii;
   bool told = false;
-  bigint set_up_at = -1;        // the step of the last setup
   std::vector<int> retyping;    // see steps_between_types()
   bool sends_types = false;     // to ghost atoms; else masses
   double warned_of = 0;         // the timestep that the last warning was about

@@ -170,6 +170,8 @@ struct HandOut {
     const int i = list.grain[k], n = list.length[i], count = from.count[i];
     const std::size_t first = static_cast<std::size_t>(from.first[i]);
     const PartnerForm &form = from.form;
+    const bool has_images =
+        form.by_image && grains.near > 0;    // x is null in a box that has become wider
     const Real *const all = from.numbers + first * form.stride();
     std::size_t pair = static_cast<std::size_t>(to.first[k]);
     int left = count;
@@ -180,7 +182,7 @@ struct HandOut {
         const Partners::Name other = grains.name[j];
         int p = 0;
         while (p < count && !(from.name[first + p] == other &&
-                              (!form.by_image || is_image(all + p * form.stride(), i, j))))
+                              (!has_images || is_image(all + p * form.stride(), i, j))))
           p++;
         if (p == count) continue;
         bits |= std::uint32_t(1) << bit;

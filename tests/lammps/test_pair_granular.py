@@ -606,6 +606,19 @@ def test_narrow_box(folder, slice, newton):
                 at_most(where + ": friction", abs(row[9]), 1e-9 * abs(expected))
 
 
+@pytest.mark.parametrize("cutoff", [1, 2.5])
+def test_images_in_a_list(folder, cutoff):
+    """Lists of jkr reach as far as the pair style's cutoff. One image of a grain that touches and one that does not have one spring,
+    which is that of the first: the friction is k 2 w R t, and forces cancel."""
+    atoms = "create_atoms 1 single 0 0.3 0\ncreate_atoms 1 single 0 1.25 0\n"
+    law = ours("* * jkr 1e4 0 0.3 0.01 tangential linear_history 5e3 0 100", style=f"granular/lsdcd {cutoff}")
+    lmp.run_well(lmp.head("-5 5 0 2.6 -5 5", "p p p") + IN_A_SLICE.format(pair=law, atoms=atoms) + dump("out", 100) + "run 100\n", folder)
+    rows = lmp.read_dump(folder / "out")[100]
+    expected = 5e3 * (2 * 2 * 0.5) * 1e-4 * 100
+    for number, sign in ((1, 1), (2, -1)):
+        at_most(f"friction on grain {number}, cutoff {cutoff}", abs(rows[number][9] - sign * expected), 1e-9 * expected)
+
+
 # Pairs of laws and whether their springs mean the same.
 DISPLACEMENT = "hooke 1e4 0 tangential linear_history 5e3 0 1 damping velocity"
 OTHER = {"hooke 2e4 0 tangential linear_history 2.5e3 0 1 damping velocity": True,

@@ -134,6 +134,7 @@ def test_types_change(folder):
     restart = "write_restart r\nclear\n" + settings() + "read_restart r\n" + laws + "\n" + change.format(7) + \
         f"fix i all nve/sphere\ntimestep {DT}\n" + dump("out", 20) + "run 20\n"
     as_plain("between runs", folder, script(laws, data="three.data") + between, ranks=(1, 2))
+    as_plain("after run 0", folder, script(laws, data="three.data") + "run 0\n" + change.format(7) + "run 20 pre no\n", ranks=(1, 2))
     as_plain("after a restart", folder, script(laws, data="three.data") + restart, ranks=(1, 2))
     for every in (1, 30):
         more = f"neigh_modify delay 0 every {every} check no\nneighbor 0.5 bin\nvariable type atom 1+((id+floor(step/20))%3)\nfix change all set 1 0 group all type v_type"
