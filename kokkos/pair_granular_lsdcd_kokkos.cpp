@@ -71,12 +71,12 @@ void PairGranularLsdcdKokkos<DeviceType>::request_list()
 template <class DeviceType>
 void PairGranularLsdcdKokkos<DeviceType>::share_types_of_host()
 {
-  const bool may_have_changed = types_may_have_changed();
-  if (may_have_changed) atomKK->sync(Host, TYPE_MASK);
+  if (!types_are_due()) return;
+  atomKK->sync(Host, TYPE_MASK);
   execution_space = Host;
   share_types();
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  if (may_have_changed) atomKK->modified(Host, TYPE_MASK);
+  atomKK->modified(Host, TYPE_MASK);
 }
 
 // LAMMPS sends masses of bodies to ghost atoms on the host.

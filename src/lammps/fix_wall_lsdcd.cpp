@@ -442,14 +442,6 @@ lsdcd::SphereDrift FixWallLsdcd::sphere_drift() const
   return drift;
 }
 
-// Since the last step, at the end of which fix set acts, or in this one.
-bool FixWallLsdcd::types_may_change() const
-{
-  return std::any_of(retyping.begin(), retyping.end(), [this](int every) {
-    return update->ntimestep % every == 0 || update->ntimestep % every == 1;
-  });
-}
-
 bool FixWallLsdcd::spheres_go_far() const
 {
   return !update->setupflag && !lammps_looks_at_spheres();
@@ -460,7 +452,7 @@ lsdcd::StepInput FixWallLsdcd::step_input(bool look)
   lsdcd::StepInput input;
   input.step = step_now();
   input.look = look;
-  input.new_types = types_may_change();
+  input.new_types = types_may_have_changed(retyping, update->ntimestep);
   input.new_spheres =
       update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != counted_atoms));
   input.box_changes = domain->box_change;

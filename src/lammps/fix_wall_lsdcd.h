@@ -126,7 +126,6 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   bool begins_late() const;    // does a step begin in post_force?
   bool lammps_looks_at_spheres() const;
   bool spheres_go_far() const;
-  bool types_may_change() const;
   void begin(bool look);
   int find_variable(const std::string &) const;
   std::vector<double> read_inputs();

@@ -116,6 +116,12 @@ std::vector<int> LAMMPS_NS::steps_between_types(Modify &modify)
   return found;
 }
 
+bool LAMMPS_NS::types_may_have_changed(const std::vector<int> &steps_between, bigint step)
+{
+  return std::any_of(steps_between.begin(), steps_between.end(),
+                     [step](int every) { return step % every == 0 || step % every == 1; });
+}
+
 std::string LAMMPS_NS::late_pair_springs(const Fix &fix, Modify &modify)
 {
   bool is_behind = false;

@@ -509,20 +509,19 @@ void PairGranularLsdcd::send_to_ghosts()
 #endif
 }
 
-// Since the last step, with the same lists: by a fix, or by a command before a run without a setup.
-bool PairGranularLsdcd::types_may_have_changed() const
+// Returns whether types may have changed since the last step, with the same lists: by a fix, or by a command before a run without a
+// setup.
+bool PairGranularLsdcd::types_are_due() const
 {
   if (laws.size() < 2 || update->setupflag || neighbor->ago == 0) return false;
   const bigint now = update->ntimestep;
-  return now == update->firststep + 1 ||
-         std::any_of(retyping.begin(), retyping.end(),
-                     [now](int every) { return now % every == 0 || now % every == 1; });
+  return now == update->firststep + 1 || types_may_have_changed(retyping, now);
 }
 
 // Ghost atoms get their types with new lists only, and the two processes of a pair would take different laws.
 void PairGranularLsdcd::share_types()
 {
-  if (!types_may_have_changed()) return;
+  if (!types_are_due()) return;
   sends_types = true;
   send_to_ghosts();
   sends_types = false;

@@ -51,7 +51,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   bool masses_are_due() const;
   void fill_masses();
   void check_growth();
-  bool types_may_have_changed() const;
+  bool types_are_due() const;
   void share_types();
   double time_step() const;
   bool time_passes() const;

@@ -194,7 +194,7 @@ LSDCD_FN void for_each_pair(const PairStepView &s, const W &warp, bool mine, std
   }
 }
 
-// Computes the pairs of a row that touch and have laws of the kind. kOne: there is one law, and sums are not asked for.
+// Computes the pairs that touch and have laws of the kind. kOne: there is one law, and sums are not asked for.
 template <class Law, bool kOne, bool kFull>
 struct AddPairs {
   static constexpr unsigned kBlocksAtOnce = 4;
