@@ -14,8 +14,8 @@
 #   --cmake      further words for cmake, as "-D GTest_DIR=..."
 #   --seconds    after which no part goes on
 #
-# Parts: build; CUDA tests; the harness (compare.py) with CUDA, on lmp-lsdcd and on /kk; bench step; the closed box
-# with /kk. Each has one line with its seconds; what cannot be run is skipped by name. The exit status is 1 where a
+# Parts: build; CUDA tests, whose results go into doc/data/gpu_tests.csv (tests/tool/gpu_record.py); the harness (compare.py) with
+# CUDA, on lmp-lsdcd and on /kk; bench step; the closed box with /kk. Each has one line with its seconds; what cannot be run is skipped by name. The exit status is 1 where a
 # part failed.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.." || exit 2
@@ -95,10 +95,11 @@ part "build" build.log cmake --build "$build" -j "$jobs" --target "${targets[@]}
 
 # ---- tests -------------------------------------------------------------------------------
 
+named=$(git rev-parse --short=8 HEAD 2>/dev/null || echo "on a GPU")
 # Small samples; LSDCD_PAIRS asks for more.
 [ ${#tests[@]} -gt 0 ] || { line FAILED 0 "CUDA tests" "none in this build: was CUDA left out? $out/configure.log"; failed=1; }
 [ ${#tests[@]} -eq 0 ] || part "CUDA tests, ${#tests[@]} files" tests.log env LSDCD_QUICK=1 LSDCD_PAIRS="${LSDCD_PAIRS:-1e6}" \
-  ctest --test-dir "$build" -L cuda -R '^test_' -j 4 --timeout 200 --output-on-failure
+  "$python" tests/tool/gpu_record.py --build "$build" --commit "$named" -R '^test_' -j 4 --timeout 200 --output-on-failure
 
 # ---- the harness -------------------------------------------------------------------------
 
@@ -115,7 +116,6 @@ fi
 
 # ---- speed -------------------------------------------------------------------------------
 
-named=$(git rev-parse --short=10 HEAD 2>/dev/null || echo "on a GPU")
 mkdir -p "$out/rows"
 quick=()
 if [ $((limit - SECONDS)) -lt 180 ]; then quick=(--quick); fi

@@ -8,7 +8,8 @@
     check_release.py --build FOLDER      also the programs that were built there
     check_release.py --packages FOLDER   also the names of what ./run package made
     check_release.py --release           also that nothing is changed and not committed, and that the
-                                         commits that pages and their data name are in the history
+                                         commits that pages and their data name are in the history, and that the
+                                         tests of a GPU (gpu_record.py) ran on today's sources
 
 Prints a line per fact; ends with 1 if one fails. The version is that of CMakeLists.txt.
 """
@@ -19,6 +20,8 @@ import pathlib
 import re
 import subprocess
 import sys
+
+import gpu_record
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = ("README.md", "doc/**/*.md", "doc/**/*.rst", "examples/*/*.md", "doc/data/*.csv", "doc/data/*.tsv")
@@ -122,6 +125,11 @@ def check_pages():
         fact(f"commit {commit} of {path} is in the history", code == 0)
 
 
+def check_gpu():
+    said = gpu_record.faults()
+    fact("the tests of a GPU passed on today's sources", not said, "; ".join(said))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path)
@@ -140,6 +148,7 @@ def main():
     if words.release:
         check_tree()
         check_pages()
+        check_gpu()
     return 1 if failed else 0
 
 
