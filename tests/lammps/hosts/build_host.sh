@@ -177,7 +177,8 @@ for word in "\$@"; do
   fi
   before=\$word
 done
-exec "$work/kokkos/bin/nvcc_wrapper" -arch=sm_$capability "\$@"
+[[ "\$*" == *-arch=* ]] || set -- -arch=sm_$capability "\$@"
+exec "$work/kokkos/bin/nvcc_wrapper" "\$@"
 TEXT
   chmod +x "$work/compiler"
   options+=(-D CMAKE_CXX_COMPILER="$work/compiler")
