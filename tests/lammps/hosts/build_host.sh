@@ -94,8 +94,9 @@ kokkos_options=(-D BUILD_SHARED_LIBS=on -D Kokkos_ENABLE_SERIAL=on -D Kokkos_ENA
                 -D Kokkos_ENABLE_ATOMICS_BYPASS=$atomics_bypass -D CMAKE_CXX_STANDARD="$standard"
                 -D CMAKE_CXX_EXTENSIONS=off -D CMAKE_INSTALL_LIBDIR=lib -D CMAKE_BUILD_TYPE=None)
 if [ $backend != SERIAL ]; then kokkos_options+=(-D Kokkos_ENABLE_$backend=on); fi
-if [ $backend = CUDA ]; then    # of this machine's GPU, or of the H100 and H200 where there is none
+if [ $backend = CUDA ]; then    # for this machine's GPU, or for an H100 or H200 where there is none
   capability=$(nvidia-smi --query-gpu=compute_cap --format=csv,noheader 2>/dev/null | head -1 | tr -d . || true)
+  if [ -z "$capability" ]; then kokkos_options+=(-D Kokkos_ARCH_HOPPER90=on); fi
   capability=${capability:-90}
   kokkos_options+=(-D Kokkos_ENABLE_IMPL_CUDA_MALLOC_ASYNC=off)
 fi
@@ -153,10 +154,16 @@ lammps_sources() {
 
 # pack FILE: for LSDCD_HOST_SOURCES, without those folders of sources that take most room and that no kind of build reads.
 pack() {
+  local folder
   kokkos_sources || skip "$why"
   lammps_sources
+  for folder in benchmarks example; do    # Kokkos asks that they are there
+    rm -rf "$work/kokkos/$folder"
+    mkdir "$work/kokkos/$folder"
+    touch "$work/kokkos/$folder/CMakeLists.txt"
+  done
   tar -cJf "$1" -C "$work" --exclude=lib/{gpu,colvars,lepton} --exclude=src/{OPENMP,INTEL,GPU} --exclude=kokkos/containers/unit_tests \
-    --exclude=kokkos/core/{unit_test,perf_test} --exclude=kokkos/{benchmarks,example}/'*' kokkos cmake src lib LICENSE
+    --exclude=kokkos/core/{unit_test,perf_test} kokkos cmake src lib LICENSE
   echo "$1"
 }
 
