@@ -12,8 +12,9 @@ endif()
 add_library(lsdcd_options INTERFACE)
 # No contraction: a fused multiply-add on one backend alone would let cell lists
 # and forces differ between CPU and GPU in the last bits.
+# A switch without a default has a case for each enumerator: where a new one is forgotten is an error.
 target_compile_options(lsdcd_options INTERFACE
-  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -ffp-contract=off>)
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Werror=switch -ffp-contract=off>)
 # Tests of geometry are joined by & where a branch would cost more than the test; clang takes that for a slip.
 target_compile_options(lsdcd_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-bitwise-instead-of-logical>)
 

@@ -78,6 +78,19 @@ ContactLaw granular_law(NormalModel normal)
   return law;
 }
 
+bool ContactLaw::is_adhesive() const
+{
+  switch (normal) {
+    case NormalModel::hooke:
+    case NormalModel::hertz:
+      return false;
+    case NormalModel::dmt:
+    case NormalModel::jkr:
+      break;
+  }
+  return true;
+}
+
 Real ContactLaw::pull_off() const
 {
   return is(NormalModel::jkr) ? JkrNormal(modulus, surface_energy).pull_off : 0;
@@ -94,8 +107,17 @@ Real tsuji_damping(Real e)
 Real restitution_damping(NormalModel normal, Real e)
 {
   const Real l = std::log(e);
-  return -(normal == NormalModel::hooke ? 2 : std::sqrt(Real(5))) * l /
-         std::sqrt(kPi * kPi + l * l);
+  Real factor = 2;
+  switch (normal) {
+    case NormalModel::hooke:
+      break;
+    case NormalModel::hertz:
+    case NormalModel::dmt:
+    case NormalModel::jkr:
+      factor = std::sqrt(Real(5));
+      break;
+  }
+  return -factor * l / std::sqrt(kPi * kPi + l * l);
 }
 
 Real cutoff_of(const ContactLaw &law, Real radius)

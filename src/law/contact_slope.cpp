@@ -3,8 +3,7 @@
 
 #include "law/contact_slope.h"
 
-#include "law/submodels/damping.h"
-#include "law/submodels/normal.h"
+#include "law/smallest_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,41 +12,29 @@ namespace lsdcd {
 
 namespace {
 
-constexpr Real kHertzSlope = 1.5;    // tangent stiffness / secant stiffness
-
-// Tangential stiffness (force/length) where the contact radius is a.
-Real tangential_stiffness(const ContactLaw &law, Real a)
+Contact contact_of(Real overlap, Real radius, Real mass)
 {
-  if (!law.has_spring()) return 0;
-  switch (law.tangential) {
-    case TangentialModel::linear_history:
-    case TangentialModel::linear_history_slip:
-    case TangentialModel::linear_history_liggghts:
-      return law.k_tangent;
-    default:
-      return law.k_tangent * a;
-  }
+  Contact c = {};
+  c.overlap = overlap;
+  c.radius = radius;
+  c.mass = mass;
+  return c;
 }
 
 // With the tangential ones of a law without friction, too.
 ContactSlopes slopes_of(const ContactLaw &law, Real overlap, Real radius, Real mass)
 {
-  if (law.is_classic()) {
-    const bool hertz = law.is(NormalModel::hertz);
-    const Real scale = hertz ? std::sqrt(radius * overlap) : 1;
-    return {{scale * ((hertz ? kHertzSlope : 1) * law.k_normal), scale * mass * law.eta},
-            {scale * law.k_tangent, scale * mass * law.gamma_tangent}};
-  }
-  Contact c = {};
-  c.overlap = overlap;
-  c.radius = radius;
-  c.mass = mass;
-  const Real a = law.is(NormalModel::jkr)
-                     ? JkrNormal(law.modulus, law.surface_energy).contact_radius(c)
-                     : std::sqrt(overlap * radius);
-  const Real k = law.is(NormalModel::hooke) ? law.k_normal : kHertzSlope * law.k_normal * a;
-  const Real damping = GranularDamping{law.damping, law.eta}.coefficient(c, a, k * overlap);
-  return {{k, damping}, {tangential_stiffness(law, a), damping * law.xgammat}};
+  const Contact c = contact_of(overlap, radius, mass);
+  return with_normal(law, [&](const auto &normal) -> ContactSlopes {
+    const Real a = normal.contact_radius(c), k = normal.tangent(a);
+    if (law.is_classic()) {
+      const Real scale = normal.uses_contact_radius() ? a : 1;
+      return {{k, scale * mass * law.eta},
+              {scale * law.k_tangent, scale * mass * law.gamma_tangent}};
+    }
+    const Real damping = GranularDamping{law.damping, law.eta}.coefficient(c, a, k * overlap);
+    return {{k, damping}, {granular_friction(law).stiffness(a), damping * law.xgammat}};
+  });
 }
 
 }    // namespace
@@ -70,13 +57,14 @@ ContactSlopes contact_slopes(const ContactLaw &law, Real overlap, Real radius, R
 Real rolling_stiffness(const ContactLaw &law, Real overlap, Real radius)
 {
   const Real *const numbers = law.rolling.numbers, mu = numbers[0];
-  const ContactSlopes s = slopes_of(law, overlap, radius, 0);
-  const Real secant = s.normal.stiffness / (law.is(NormalModel::hooke) ? 1 : kHertzSlope);
+  const Contact c = contact_of(overlap, radius, 0);
+  const Real secant =
+      with_normal(law, [&](const auto &normal) { return normal.secant(normal.contact_radius(c)); });
   switch (law.rolling.model) {
     case RollingModel::sds:
       return numbers[0] * radius * radius;
     case RollingModel::epsd2:
-      return s.tangential.stiffness * radius * radius;
+      return slopes_of(law, overlap, radius, 0).tangential.stiffness * radius * radius;
     case RollingModel::epsd:
       return 2.25 * secant * mu * mu * radius * radius;
     case RollingModel::epsd3:

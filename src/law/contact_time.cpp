@@ -4,6 +4,7 @@
 #include "law/contact_time.h"
 
 #include "law/contact_slope.h"
+#include "law/smallest_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,17 +13,14 @@ namespace lsdcd {
 
 bool is_hertzian(const ContactLaw &law)
 {
-  return !law.is(NormalModel::hooke);
+  return with_normal(law, [](const auto &normal) { return normal.uses_contact_radius(); });
 }
 
 Real contact_time(const ContactLaw &law, Real mass, Real radius, Real ftm2v, Real inertia)
 {
-  Real k = law.k_normal, gamma = law.is_classic() ? law.eta : 0;
-  if (is_hertzian(law)) {
-    const Real root = std::sqrt(0.01 * radius * radius);
-    k *= 1.5 * root;
-    gamma *= root;
-  }
+  const Real a = std::sqrt(0.01 * radius * radius);    // the contact's radius
+  const Real k = with_normal(law, [a](const auto &normal) { return normal.tangent(a); });
+  const Real gamma = (law.is_classic() ? law.eta : 0) * (is_hertzian(law) ? a : 1);
   const Real omega_sq = ftm2v * k / mass, half = 0.5 * ftm2v * gamma;
   const Real damped_sq = omega_sq - half * half;
   const Real of_normal = kPi / std::sqrt(damped_sq > 0 ? damped_sq : omega_sq);

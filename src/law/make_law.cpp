@@ -45,7 +45,7 @@ bool can_derive(const SubModel &row, const LawDraft &draft)
 void finish_granular(LawDraft &d)
 {
   ContactLaw &law = d.law;
-  const bool adhesive = law.normal == NormalModel::dmt || law.normal == NormalModel::jkr;
+  const bool adhesive = law.is_adhesive();
   const std::string normal = "'" + std::string(d.normal_name) + "'";
   if (law.limit_damping && adhesive)
     throw LawError("limit_damping", "the adhesive sub-model " + normal + " must be able to pull");

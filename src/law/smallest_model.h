@@ -54,22 +54,27 @@ auto with_added_law(const ContactLaw &p, const Make &make)
   });
 }
 
-// `granular` with one normal sub-model.
-template <bool kHistory, GranularSet kSet, class Normal>
-GranularModel<Normal, kHistory, kSet> granular_model(const ContactLaw &p, const Normal &normal)
+// The friction of `granular`.
+inline GranularFriction granular_friction(const ContactLaw &p)
 {
-  using Model = GranularModel<Normal, kHistory, kSet>;
   const TangentialModel t = p.tangential;
   const bool spring = p.has_spring(), mindlin = t >= TangentialModel::mindlin;
   const bool of_force =
       t == TangentialModel::mindlin_force || t == TangentialModel::mindlin_rescale_force;
   const bool slip = t == TangentialModel::linear_history_slip || t == TangentialModel::mindlin_slip;
-  const bool uses_contact_radius = p.damping == DampingModel::viscoelastic || mindlin ||
+  return {spring ? p.k_tangent : 0, p.xgammat, p.mu, spring, mindlin, of_force, p.rescales(), slip,
+          p.is_at_midpoint()};
+}
+
+// `granular` with one normal sub-model.
+template <bool kHistory, GranularSet kSet, class Normal>
+GranularModel<Normal, kHistory, kSet> granular_model(const ContactLaw &p, const Normal &normal)
+{
+  using Model = GranularModel<Normal, kHistory, kSet>;
+  const GranularFriction friction = granular_friction(p);
+  const bool uses_contact_radius = p.damping == DampingModel::viscoelastic || friction.by_radius ||
                                    p.twisting.model == TwistingModel::marshall || p.has_heat();
   const Real *const twisting = p.twisting.numbers;
-  const GranularFriction friction = {
-      spring ? p.k_tangent : 0, p.xgammat, p.mu, spring, mindlin, of_force, p.rescales(), slip,
-      p.is_at_midpoint()};
   return {normal,
           {p.damping, p.eta},
           friction,
@@ -81,14 +86,21 @@ GranularModel<Normal, kHistory, kSet> granular_model(const ContactLaw &p, const 
           p.limit_damping};
 }
 
-inline TouchingNormal touching_normal(const ContactLaw &p)
+// Calls act(normal) with the normal sub-model of a law, with the numbers of `granular`. A new one is named here, with the struct
+// that has its formulas.
+template <class Act>
+auto with_normal(const ContactLaw &p, const Act &act)
 {
-  return {p.normal, p.k_normal, p.is(NormalModel::dmt) ? 4 * kPi * p.surface_energy : 0};
-}
-
-inline JkrNormal jkr_normal(const ContactLaw &p)
-{
-  return JkrNormal(p.modulus, p.surface_energy);
+  switch (p.normal) {
+    case NormalModel::hooke:
+    case NormalModel::hertz:
+      return act(TouchingNormal{p.normal, p.k_normal, 0});
+    case NormalModel::dmt:
+      return act(TouchingNormal{p.normal, p.k_normal, 4 * kPi * p.surface_energy});
+    case NormalModel::jkr:
+      break;
+  }
+  return act(JkrNormal(p.modulus, p.surface_energy));
 }
 
 // Returns whether a law of `granular` has other sub-models than a normal one, its damping and friction that is not rescaled.
@@ -102,14 +114,18 @@ inline bool has_more(const ContactLaw &p)
 template <GranularSet kFew, GranularSet kMore, class Make>
 auto with_granular_sets(const ContactLaw &p, const Make &make)
 {
-  if (p.is(NormalModel::jkr)) return make(granular_model<true, kMore>(p, jkr_normal(p)));
-  const TouchingNormal normal = touching_normal(p);
-  const bool more = has_more(p);
-  if (p.has_history())
-    return more ? make(granular_model<true, kMore>(p, normal))
-                : make(granular_model<true, kFew>(p, normal));
-  return more ? make(granular_model<false, kMore>(p, normal))
-              : make(granular_model<false, kFew>(p, normal));
+  return with_normal(p, [&](const auto &normal) {
+    if constexpr (std::decay_t<decltype(normal)>::kBeyondContact) {
+      return make(granular_model<true, kMore>(p, normal));
+    } else {
+      const bool more = has_more(p);
+      if (p.has_history())
+        return more ? make(granular_model<true, kMore>(p, normal))
+                    : make(granular_model<true, kFew>(p, normal));
+      return more ? make(granular_model<false, kMore>(p, normal))
+                  : make(granular_model<false, kFew>(p, normal));
+    }
+  });
 }
 
 // `granular` without sub-models of LIGGGHTS: calls make(law) with the smallest law that has all that is asked for.
@@ -131,13 +147,14 @@ auto with_granular_added_law(const ContactLaw &p, const Make &make)
 template <class Make>
 auto with_energy_law(const ContactLaw &p, const Make &make)
 {
-  if (!p.is_classic()) {
-    if (p.is(NormalModel::jkr))
-      return make(granular_model<true, GranularSet::all>(p, jkr_normal(p)));
-    const TouchingNormal normal = touching_normal(p);
-    return has_more(p) ? make(granular_model<true, GranularSet::all>(p, normal))
-                       : make(granular_model<true, GranularSet::either>(p, normal));
-  }
+  if (!p.is_classic())
+    return with_normal(p, [&](const auto &normal) {
+      if constexpr (std::decay_t<decltype(normal)>::kBeyondContact)
+        return make(granular_model<true, GranularSet::all>(p, normal));
+      else
+        return has_more(p) ? make(granular_model<true, GranularSet::all>(p, normal))
+                           : make(granular_model<true, GranularSet::either>(p, normal));
+    });
   return with_classic_law(p, [&](const auto &base) {
     return make(AddedModel<std::decay_t<decltype(base)>, true>{
         base, family_of<AnyRolling>(p.rolling), {p.cohesion.numbers[0]}, p.k_tangent});

@@ -10,6 +10,8 @@
 #include "pair/pair_kernel.h"
 #include "pair/pair_lanes.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -97,25 +99,28 @@ void each_choice(GranularModel<Normal, kHistory, kSet> &law, const Act &act)
   act(law.limit_damping);
 }
 
+using Choices = std::array<std::int64_t, kLaneChoices>;
+
+template <class Law>
+Choices choices_of(Law law)
+{
+  Choices all = {};
+  std::size_t at = 0;
+  each_choice(law, [&](auto choice) { all[at++] = static_cast<std::int64_t>(choice); });
+  return all;
+}
+
 template <class Law>
 void prepare_lanes(const LawBytes &bytes, PairLanes &lanes)
 {
-  Law law = bytes.as<Law>();
-  int at = 0;
-  each_choice(law, [&](auto choice) {
-    for (std::int64_t &lane : lanes.choice[at]) lane = static_cast<std::int64_t>(choice);
-    at++;
-  });
+  const Choices all = choices_of(bytes.as<Law>());
+  for (std::size_t at = 0; at < all.size(); at++)
+    for (std::int64_t &lane : lanes.choice[at]) lane = all[at];
 }
 
-// Choices that a loop is compiled for: fix() makes constants of them, where fits() says that a law has made them. Any law fits
-// AnyChoice. The usual ones of `granular` leave out roots and divisions of sub-models that few laws have.
+// Choices that a loop is compiled for: fix() makes constants of them. The usual ones of `granular` leave out roots and divisions of
+// sub-models that few laws have.
 struct AnyChoice {
-  template <class Law>
-  static bool fits(const Law &)
-  {
-    return true;
-  }
   template <class Law>
   static void fix(Law &)
   {
@@ -123,14 +128,6 @@ struct AnyChoice {
 };
 template <DampingModel damping>
 struct UsualChoice {
-  template <class Law>
-  static bool fits(const Law &law)
-  {
-    const GranularFriction &friction = law.tangential;
-    return law.damping.model == damping && friction.spring && !friction.of_force &&
-           !friction.slip && !friction.rescale && !law.limit_damping &&
-           law.elastic.model != NormalModel::dmt && law.conduction.model == HeatModel::none;
-  }
   template <class Law>
   static void fix(Law &law)
   {
@@ -147,20 +144,9 @@ struct UsualChoice {
 template <RollingModel rolling>
 struct RollingChoice {
   template <class Base, bool kHistory>
-  static bool fits(const AddedModel<Base, kHistory> &law)
-  {
-    return law.rolling.model == rolling;
-  }
-  template <class Base, bool kHistory>
   static void fix(AddedModel<Base, kHistory> &law)
   {
     law.rolling.model = rolling;
-  }
-  template <class Normal>
-  static bool fits(const GranularModel<Normal, true, GranularSet::all> &law)
-  {
-    return UsualChoice<DampingModel::stiffness>::fits(law) && law.rolling.model == rolling &&
-           law.tangential.at_midpoint && !law.twisting.is_on();
   }
   template <class Normal>
   static void fix(GranularModel<Normal, true, GranularSet::all> &law)
@@ -171,6 +157,15 @@ struct RollingChoice {
     law.twisting.model = TwistingModel::none;
   }
 };
+
+// Has a law made these choices? Then fix() changes none.
+template <class Choice, class Law>
+bool fits(const Law &law)
+{
+  Law fixed = law;
+  Choice::fix(fixed);
+  return choices_of(fixed) == choices_of(law);
+}
 
 // Computes the pair of a lane with the choices that the lane has.
 template <class Choice, class Law>
@@ -231,7 +226,7 @@ auto widest_loop() -> decltype(PairLaw::evaluate_wide)
 template <class First, class... More, class Law>
 void set_wide(const Law &law, PairLaw &out)
 {
-  if (First::fits(law))
+  if (fits<First>(law))
     out.evaluate_wide = widest_loop<Law, First>();
   else if constexpr (sizeof...(More) > 0)
     set_wide<More...>(law, out);

@@ -5,7 +5,10 @@
 #include "base/input_error.h"
 #include "input/pair_words.h"
 #include "pair/compile_pair.h"
+#include "pair/pair_lanes.h"
 #include "pair/partners.h"
+#include "support/random.h"
+#include "support/table_laws.h"
 
 #include <gtest/gtest.h>
 
@@ -433,6 +436,120 @@ TEST(pairs, have_the_same_bits_side_by_side)
       for (std::size_t k = 0; k < of_wide.size(); k++)
         ASSERT_EQ(of_wide[k].energy, of_narrow[k].energy) << words;
     }
+  }
+}
+
+// ---- every law of the table of sub-models --------------------------------------------------------
+
+// Lanes full of pairs that touch, slip, roll, spin and have kept something: from hardly at all to far beyond any limit.
+struct FullLanes : PairLanes {
+  explicit FullLanes(unsigned seed) : PairLanes()
+  {
+    Random random(seed);
+    const auto any_size = [&] { return log_uniform(random, 1e-7, 10) * (random() % 2 ? 1 : -1); };
+    for (int k = 0; k < kLanes; k++) {
+      radius_i[k] = uniform(random, 0.5, 1);
+      radius_j[k] = uniform(random, 0.5, 1);
+      mass_i[k] = uniform(random, 1, 2);
+      mass_j[k] = uniform(random, 1, 2);
+      mass[k] = mass_i[k] * mass_j[k] / (mass_i[k] + mass_j[k]);
+      temperature_difference[k] = any_size();
+      const Real distance = radius_i[k] + radius_j[k] - log_uniform(random, 1e-9, 0.1);
+      set_lane(offset, k, distance * random_unit(random));
+      set_lane(velocity, k, {any_size(), any_size(), any_size()});
+      set_lane(omega_i, k, {any_size(), any_size(), any_size()});
+      set_lane(omega_j, k, {any_size(), any_size(), any_size()});
+      for (Lane &number : memory) number[k] = any_size();
+      constexpr int kRadius = 3 + 3;    // of the contact, of `mindlin_rescale`
+      memory[kRadius][k] = std::fabs(memory[kRadius][k]);
+    }
+    look_at_own();
+  }
+  FullLanes(const FullLanes &other) : PairLanes(other) { look_at_own(); }
+
+  // All that a law has put into them.
+  std::vector<Real> results(const PairLaw &law) const
+  {
+    std::vector<const Real *> lanes = {energy};
+    for (const Lane *const vector : {force, torque_i, torque_j})
+      lanes.insert(lanes.end(), {vector[0], vector[1], vector[2]});
+    if (law.has_heat) lanes.push_back(heat);
+    for (int m = 0; m < kLaneNumbers; m++)
+      if (law.stored >> m & 1) lanes.push_back(memory[m]);
+    std::vector<Real> all;
+    for (const Real *const lane : lanes) all.insert(all.end(), lane, lane + kLanes);
+    return all;
+  }
+
+ private:
+  void look_at_own()
+  {
+    for (int m = 0; m < kLaneNumbers; m++) before[m] = after[m] = memory[m];
+  }
+};
+
+std::vector<Real> results_one_by_one(const PairLaw &law, const FullLanes &lanes)
+{
+  FullLanes computed = lanes;
+  law.evaluate_lanes(law.law, computed, kLanes, 1e-3, true);
+  return computed.results(law);
+}
+
+// The choices of a law that a loop over vectors was compiled for are its own.
+TEST(pairs, of_every_law_that_can_be_made_have_the_same_bits_side_by_side)
+{
+  const FullLanes lanes(9);
+  int n = 0;
+  each_law_of_table([&](const ContactLaw &of, const LawRows &rows) {
+    const PairLaw law = pair_law(of);
+    if (!law.evaluate_wide || ::testing::Test::HasFailure()) return;
+    FullLanes computed = lanes;
+    law.prepare(law.law, computed);
+    law.evaluate_wide(law.law, computed, kLanes, 1e-3);
+    ASSERT_EQ(computed.results(law), results_one_by_one(law, lanes))
+        << name_of(rows) << (of.limit_damping ? "limit_damping" : "");
+    n++;
+  });
+  if (pair_law(law_of_words(kLaws[0])).evaluate_wide) {
+    EXPECT_GT(n, 10000);
+  }
+}
+
+// A row whose model has no branch in the formulas of its family would act as another one.
+TEST(pairs, of_each_sub_model_of_the_table_have_forces_of_their_own)
+{
+  const auto row_of = [](Family family, const std::string &name) {
+    for (const SubModel *row : sub_models(family))
+      if (row->name == name) return row;
+    return static_cast<const SubModel *>(nullptr);
+  };
+  const LawRows usual = {row_of(Family::normal, "hertz/material"),
+                         row_of(Family::damping, "velocity"),
+                         row_of(Family::tangential, "mindlin"),
+                         row_of(Family::rolling, "sds"),
+                         row_of(Family::twisting, "sds"),
+                         row_of(Family::heat, "radius"),
+                         nullptr};
+  const FullLanes lanes(10);
+  const auto results = [&](const LawRows &rows) {
+    const std::optional<ContactLaw> law = law_of_rows(rows);
+    EXPECT_TRUE(law) << name_of(rows);
+    std::vector<Real> all = results_one_by_one(pair_law(*law), lanes);
+    for (const Real each : all) EXPECT_TRUE(std::isfinite(each)) << name_of(rows);
+    return all;
+  };
+  const Family families[] = {Family::normal,   Family::damping, Family::tangential, Family::rolling,
+                             Family::twisting, Family::heat,    Family::cohesion};
+  for (std::size_t k = 0; k < usual.size(); k++) {
+    const LawRows choices = choices_of(families[k]);
+    for (const SubModel *a : choices)
+      for (const SubModel *b : choices) {
+        if (a == b || (a && b && a->model == b->model)) continue;
+        LawRows of_a = usual, of_b = usual;
+        of_a[k] = a;
+        of_b[k] = b;
+        EXPECT_NE(results(of_a), results(of_b)) << name_of({a, b});
+      }
   }
 }
 

@@ -4,10 +4,14 @@
 // Which compiled law a scene gets: one that computes what is asked for, as the law with all sub-models does, and no more.
 #include "pair/booked_law.h"
 
+#include "law/contact_slope.h"
+#include "law/contact_time.h"
 #include "support/random.h"
+#include "support/table_laws.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -23,7 +27,7 @@ ContactLaw law_with(NormalModel normal, TangentialModel tangential)
   law.k_normal = 1e4;
   law.modulus = 0.75e4;
   law.surface_energy = 3;
-  law.damping = normal == NormalModel::dmt ? DampingModel::viscoelastic : DampingModel::stiffness;
+  law.damping = law.is_adhesive() ? DampingModel::viscoelastic : DampingModel::stiffness;
   law.eta = 0.4;
   law.tangential = tangential;
   law.k_tangent = 3e3;
@@ -32,14 +36,29 @@ ContactLaw law_with(NormalModel normal, TangentialModel tangential)
   return law;
 }
 
+// Returns the law with all sub-models, of one whose normal force ends where the surfaces part.
+All all_of(const ContactLaw &p)
+{
+  All all = {};
+  with_normal(p, [&](const auto &normal) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(normal)>, TouchingNormal>)
+      all = granular_model<true, GranularSet::all>(p, normal);
+    else
+      ADD_FAILURE() << "it acts beyond touch";
+  });
+  return all;
+}
+
 // Every law of normal force and friction alone.
 std::vector<ContactLaw> laws_of_few(bool booked)
 {
   std::vector<ContactLaw> laws;
-  for (const NormalModel normal : {NormalModel::hooke, NormalModel::hertz, NormalModel::dmt})
-    for (int k = static_cast<int>(TangentialModel::linear_nohistory);
-         k < static_cast<int>(TangentialModel::mindlin_rescale); k++) {
-      laws.push_back(law_with(normal, static_cast<TangentialModel>(k)));
+  for (const SubModel *normal : sub_models(Family::normal))
+    for (const SubModel *tangential : sub_models(Family::tangential)) {
+      const ContactLaw law = law_with(static_cast<NormalModel>(normal->model),
+                                      static_cast<TangentialModel>(tangential->model));
+      if (law.rescales() || law.pull_off() > 0) continue;
+      laws.push_back(law);
       laws.back().keeps_forces = booked;
     }
   return laws;
@@ -142,7 +161,7 @@ void expect_forces_of_all()
   for (const ContactLaw &p : laws_of_few())
     with_law(p, [&](const auto &law) {
       using Law = std::decay_t<decltype(law)>;
-      const All all = granular_model<true, GranularSet::all>(p, touching_normal(p));
+      const All all = all_of(p);
       ContactMemory<Law::kExtra> memory = {};
       ContactMemory<All::kExtra> memory_of_all = {};
       for (int step = 0; step < 200; step++) {
@@ -197,7 +216,7 @@ TEST(smallest_model, says_what_its_force_is_made_of_as_the_law_with_all)
 {
   for (const ContactLaw &p : laws_of_few(true))
     with_booked_granular(p, [&](const auto &law) {
-      const All all = granular_model<true, GranularSet::all>(p, touching_normal(p));
+      const All all = all_of(p);
       expect_same_parts<Contact>(law, all, p);
       expect_same_parts<PairContact>(law, all, p);
     });
@@ -231,6 +250,47 @@ TEST(smallest_model, of_booked_pairs_is_a_classic_style_alone)
     with_booked_law(p, [&](const auto &law) { EXPECT_TRUE(law.kContactTorque) << name_of(p); });
   }
 }
+// secant(), tangent(), and what takes them, beside differences of the force, without adhesion.
+TEST(smallest_model, has_the_stiffnesses_of_its_normal_force)
+{
+  const Real overlap = 0.003, radius = 0.3,
+             mass = 2;    // contact_time() looks at 1 % of the radius
+  for (const SubModel *row : sub_models(Family::normal)) {
+    ContactLaw p =
+        law_with(static_cast<NormalModel>(row->model), TangentialModel::linear_nohistory);
+    p.surface_energy = 0;
+    p.damping = DampingModel::none;
+    const auto force = [&](Real at) {
+      Contact c = {};
+      c.overlap = at;
+      c.radius = radius;
+      c.mass = mass;
+      Real f = 0;
+      with_granular_law(p, [&](const auto &law) {
+        ContactMemory<std::decay_t<decltype(law)>::kExtra> memory = {};
+        f = law.evaluate(c, memory).normal;
+      });
+      return f;
+    };
+    // Differences over h are wrong by h^2/24 of the overlap's, and round to 1e-16 of the force over h.
+    const Real h = 1e-4 * overlap, slope = (force(overlap + h / 2) - force(overlap - h / 2)) / h;
+    const Real secant = force(overlap) / overlap;
+    with_normal(p, [&](const auto &normal) {
+      const Real a = std::sqrt(radius * overlap);
+      EXPECT_NEAR(normal.secant(a), secant, 1e-12 * slope) << row->name;
+      EXPECT_NEAR(normal.tangent(a), slope, 1e-8 * slope) << row->name;
+    });
+    EXPECT_NEAR(contact_slopes(p, overlap, radius, mass).normal.stiffness, slope, 1e-8 * slope)
+        << row->name;
+    const Real time = kPi / std::sqrt(slope / mass);
+    EXPECT_NEAR(contact_time(p, mass, radius, 1), time, 1e-8 * time) << row->name;
+    EXPECT_EQ(is_hertzian(p), slope > 1.0001 * secant) << row->name;
+    p.rolling = {RollingModel::epsd, {2, 0}};
+    const Real rolling = 2.25 * secant * 2 * 2 * radius * radius;
+    EXPECT_NEAR(rolling_stiffness(p, overlap, radius), rolling, 1e-12 * rolling) << row->name;
+  }
+}
+
 TEST(smallest_model, gives_the_forces_of_the_law_with_all_at_a_wall)
 {
   expect_forces_of_all<Contact>();

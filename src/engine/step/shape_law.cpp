@@ -116,7 +116,7 @@ std::string why_not_for_shapes(const ContactLaw &law)
            ": the wall has it for spheres alone; grains of other shapes can have hooke and hertz "
            "with their damping and sliding friction";
   };
-  if (law.is(NormalModel::jkr) || law.is(NormalModel::dmt)) return refused("adhesion");
+  if (law.is_adhesive()) return refused("adhesion");
   if (law.cohesion.is_on()) return refused("cohesion");
   if (law.rolling.is_on()) return refused("rolling resistance");
   if (law.twisting.is_on()) return refused("twisting resistance");

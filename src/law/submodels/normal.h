@@ -6,7 +6,8 @@
 //   contact_radius(c)   length
 //   force(c, a)         elastic force, > 0 where it pushes
 //   energy(c, a)        what is held
-//   stiffness(a)        secant stiffness without adhesion, force/length
+//   secant(a)           stiffness without adhesion, force over overlap: force/length
+//   tangent(a)          the same for a little more overlap: the slope of the force
 // where a is the contact radius, which a law computes only if something needs it.
 #pragma once
 
@@ -33,7 +34,8 @@ struct HookeNormal {
 
   LSDCD_FN Real contact_radius(const Contact &c) const { return sqrt(c.overlap * c.radius); }
   LSDCD_FN Real force(const Contact &c, Real) const { return k * c.overlap; }
-  LSDCD_FN Real stiffness(Real) const { return k; }
+  LSDCD_FN Real secant(Real) const { return k; }
+  LSDCD_FN Real tangent(Real) const { return k; }
   LSDCD_FN Real energy(const Contact &c, Real) const { return 0.5 * k * c.overlap * c.overlap; }
 };
 
@@ -44,7 +46,8 @@ struct HertzNormal {
 
   LSDCD_FN Real contact_radius(const Contact &c) const { return sqrt(c.overlap * c.radius); }
   LSDCD_FN Real force(const Contact &c, Real a) const { return a * k * c.overlap; }
-  LSDCD_FN Real stiffness(Real a) const { return a * k; }
+  LSDCD_FN Real secant(Real a) const { return a * k; }
+  LSDCD_FN Real tangent(Real a) const { return a * (1.5 * k); }
   LSDCD_FN Real energy(const Contact &c, Real a) const
   {
     return 0.4 * k * a * c.overlap * c.overlap;
@@ -56,9 +59,9 @@ struct HertzNormal {
 // `normal` the force with damping. Adhesion presses the surfaces together even where the forces
 // cancel.
 
-// `hooke`, `hertz` and `dmt` share one kernel: the choice is the same for all contacts of a wall. DMT
-// (Derjaguin, Muller and Toporov 1975) is Hertz minus a constant pull 4 pi gamma R while the spheres
-// touch.
+// `hooke`, `hertz` and `dmt` share one kernel: the choice is the same for all contacts of a wall, and with_normal()
+// (smallest_model.h) says which models it has. DMT (Derjaguin, Muller and Toporov 1975) is Hertz minus a constant pull
+// 4 pi gamma R while the spheres touch.
 struct TouchingNormal {
   static constexpr bool kBeyondContact = false;    // does it act past touch?
   NormalModel model;
@@ -72,7 +75,8 @@ struct TouchingNormal {
     if (!uses_contact_radius()) return k * c.overlap;
     return a * k * c.overlap - pull * c.radius;
   }
-  LSDCD_FN Real stiffness(Real a) const { return uses_contact_radius() ? a * k : k; }
+  LSDCD_FN Real secant(Real a) const { return uses_contact_radius() ? a * k : k; }
+  LSDCD_FN Real tangent(Real a) const { return uses_contact_radius() ? a * (1.5 * k) : k; }
   LSDCD_FN Real limit(const Contact &c, Real f, Real normal) const
   {
     return fabs(model == NormalModel::dmt ? f + 2 * pull * c.radius : normal);
@@ -131,7 +135,8 @@ struct JkrNormal {
   {
     return Real(4) / 3 * modulus * a * a * a / c.radius - 4 * root * a * sqrt(a);
   }
-  LSDCD_FN Real stiffness(Real a) const { return Real(4) / 3 * modulus * a; }
+  LSDCD_FN Real secant(Real a) const { return Real(4) / 3 * modulus * a; }
+  LSDCD_FN Real tangent(Real a) const { return a * (1.5 * (Real(4) / 3 * modulus)); }
   LSDCD_FN Real limit(const Contact &c, Real f, Real) const
   {
     return fabs(f + 6 * kPi * surface_energy * c.radius);
