@@ -15,6 +15,7 @@
 #include "lammps/other_fixes.h"
 #include "law/contact_time.h"
 #include "law/force_parts.h"
+#include "law/make_law.h"
 #include "pair/compile_pair.h"
 
 #include "atom.h"
@@ -176,11 +177,16 @@ void PairGranularLsdcd::init_style()
   flips_of.clear();
   without_law.clear();
   std::fill(law_of.begin(), law_of.end(), 0);
-  const auto add = [&](const lsdcd::PairCoeff &coeff) {
+  const auto add = [&](const lsdcd::PairCoeff &coeff, int i, int j) {
     // Pairs of one law are computed together.
     for (std::size_t k = 0; k < coeffs.size(); k++)
       if (lsdcd::are_equal(coeffs[k], coeff)) return static_cast<int>(k);
     lsdcd::ContactLaw law = lsdcd::law_of(coeff);
+    try {
+      lsdcd::check_dashpots(law, force->ftm2v);
+    } catch (const lsdcd::LawError &e) {
+      fatal("in the law of types " + types_text(i, j) + ", " + e.what());
+    }
     // The stiffnesses of hertz/history are pressures.
     if (law.is_classic() && law.is(lsdcd::NormalModel::hertz)) {
       law.k_normal /= force->nktv2p;
@@ -198,18 +204,20 @@ void PairGranularLsdcd::init_style()
       const auto own = given.find({i, j});
       int law;
       if (own != given.end()) {
-        law = add(own->second);
+        law = add(own->second, i, j);
       } else {
         const auto a = given.find({i, i}), b = given.find({j, j});
         std::string &why = without_law[{i, j}];
         if (a == given.end() || b == given.end()) continue;    // LAMMPS tells what is missing
+        lsdcd::PairCoeff mixed;
         try {
-          law = add(lsdcd::mixed(a->second, b->second, types_text(i, j)));
+          mixed = lsdcd::mixed(a->second, b->second, types_text(i, j));
         } catch (const lsdcd::InputError &e) {
           why = e.what();
           continue;
         }
         without_law.erase({i, j});
+        law = add(mixed, i, j);
       }
       law_of[i * n + j] = law_of[j * n + i] = law;
     }

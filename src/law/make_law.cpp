@@ -11,6 +11,36 @@ namespace lsdcd {
 
 namespace {
 
+bool gives_restitution(const ContactLaw &law)
+{
+  switch (law.damping) {
+    case DampingModel::none:
+    case DampingModel::velocity:
+    case DampingModel::mass_velocity:
+    case DampingModel::viscoelastic:
+    case DampingModel::classic:
+      return false;
+    case DampingModel::stiffness:
+      break;
+  }
+  return law.eta != 0;
+}
+
+bool rolls_with_part_of_critical(const ContactLaw &law)
+{
+  switch (law.rolling.model) {
+    case RollingModel::none:
+    case RollingModel::sds:
+    case RollingModel::cdt:
+    case RollingModel::epsd2:
+      return false;
+    case RollingModel::epsd:
+    case RollingModel::epsd3:
+      break;
+  }
+  return law.rolling.numbers[1] != 0;
+}
+
 template <class Model>
 void choose(Chosen<Model> &chosen, const SubModel &row, const std::vector<Real> &given)
 {
@@ -63,6 +93,24 @@ void finish_granular(LawDraft &d)
                                   " is out of range: it must be above 0 and at most 1, as the "
                                   "second number of the normal sub-model is the restitution");
   law.eta = exact ? restitution_damping(law.normal, d.second) : tsuji_damping(d.second);
+}
+
+// The critical dashpot is 2 sqrt(m k / acceleration), and the formulas, which are LAMMPS's and LIGGGHTS's, have 2 sqrt(m k).
+void check_dashpots(const ContactLaw &law, Real acceleration)
+{
+  if (acceleration == 1) return;
+  const std::string only =
+      " only in units in which a force of 1 gives a mass of 1 the acceleration 1, such as si, cgs, "
+      "micro, nano and lj, and in those that are used it gives " +
+      number_text(acceleration) + ": use such units, or ";
+  if (gives_restitution(law))
+    throw LawError("damping", "the damping (tsuji or coeff_restitution) returns the restitution e" +
+                                  only + "another damping");
+  if (rolls_with_part_of_critical(law))
+    throw LawError("rolling",
+                   "the number damping of the rolling (epsd or epsd3) is the part of the critical "
+                   "dashpot" +
+                       only + "0 for it");
 }
 
 }    // namespace lsdcd

@@ -25,4 +25,8 @@ bool can_derive(const SubModel &row, const LawDraft &draft);
 // Resolves what depends on several sub-models, once all are there. Throws LawError.
 void finish_granular(LawDraft &draft);
 
+// Refuses a law with a dashpot that is a part of the critical one, which gives a restitution, in units in which it is another part.
+// `acceleration`: of a mass of 1 by a force of 1, in units of velocity/time. Throws LawError.
+void check_dashpots(const ContactLaw &law, Real acceleration);
+
 }    // namespace lsdcd

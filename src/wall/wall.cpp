@@ -20,7 +20,7 @@ namespace lsdcd {
 Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backend,
            const std::string &material, const StepClock &clock, const HostSpheres &there) :
     host_(host),
-    spec_(in_units(std::move(spec), units.pressure)), laws_(law_table(spec_)),
+    spec_(in_units(std::move(spec), units.pressure, units.velocity)), laws_(law_table(spec_)),
     backend_(std::move(backend)), clock_(clock), pressure_unit_(units.pressure),
     engine_input_(host, spec_, laws_, meshes_, units.velocity), coats_(host, spec_, meshes_),
     history_(host, spec_.law()), totals_(host, spec_), means_(host, spec_), loads_(host, spec_),

@@ -167,6 +167,16 @@ TABLES = [
         ("material_types_of_no_type", "granular material glass.lsdcd glass types 5 glass",
          "in 'types 5', there is no atom type 5: there are 1"),
     ]),
+    (changed(WALL, ("lj", "metal")) + "fix             wall all wall/lsdcd {} mesh floor.stl\n" + RUN, [
+        (f"restitution_in_metal_{name}", words, "Fix wall wall/lsdcd", says, "only in units in which a force of 1 gives a mass of 1 the acceleration 1",
+         "in those that are used it gives 9648.53", remedy)
+        for name, words, says, remedy in (
+            ("tsuji", "granular hertz 1e5 0.5 tangential linear_nohistory 0 0 damping tsuji", "(tsuji or coeff_restitution) returns the restitution e", "another damping"),
+            ("exact", "granular hooke 1e5 0.5 tangential linear_nohistory 0 0 damping coeff_restitution", "(tsuji or coeff_restitution)", "another damping"),
+            ("of_mesh", "granular hooke 1e5 1 tangential linear_nohistory 0 0 damping coeff_restitution mesh floor.stl move 0 0 3 law granular hooke 1e5 0.5 "
+             "tangential linear_nohistory 0 0 damping coeff_restitution", "(tsuji or coeff_restitution)", "another damping"),
+            ("rolling", "hooke/history 1e4 NULL 5 NULL 0.5 1 rolling epsd 0.3 0.2", "(epsd or epsd3) is the part of the critical dashpot", "or 0 for it"))
+    ]),
     (WALL + HOOKE + "mesh floor.stl mesh floor.stl move 0 0 3\nfix_modify wall {}\n", [
         ("change_continued_behind_a_comment", "mesh 2 motion linear 0 0 1 &  # up", "Fix wall wall/lsdcd", "the command ends at '&'", "a comment", "only if '&' is its last character"),
         ("modify_mesh_alone", "mesh 2",

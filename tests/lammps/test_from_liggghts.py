@@ -48,6 +48,10 @@ fix n4 all property/global coefficientFriction peratomtypepair 2 0.4 0.4 0.4 0.4
 BODY = "fix cad all mesh/surface/stress/6dof file a.stl type 1 move 1 2 3 com 1 2 3 mass 40 moi 3 4 5 1 1 0.5 {}\n"
 BALANCED = BODY.replace("1 1 0.5 ", "0 0 0 ")
 ELASTIC = "fix m3 all property/global coefficientRestitution peratomtypepair 1 1\n"
+ROLLS = """\
+fix m6 all property/global coefficientRollingFriction peratomtypepair 1 0.1
+fix m7 all property/global coefficientRollingViscousDamping peratomtypepair 1 0.2
+"""
 # What is written, whole or in part, for what.
 WRITTEN = {
     "placement keeps its order": (
@@ -64,6 +68,9 @@ WRITTEN = {
         ON_MESH + MOVE.format("linear 1 0 0") + THEN.format("rotate origin 1 2 3 axis 0 1 0 period 4"),
         "fix_modify      w motion rotate 1 2 3 0 1 0 4 motion linear 1 0 0"),
     "loads get their new names": (ON_MESH + "thermo_style custom step f_cad[3]\n", "step f_w[3]"),
+    "without a dashpot any units are right": (
+        "units metal\n" + ELASTIC + ROLLS.replace("1 0.2", "1 0") + MESH.format("") + WALL.replace("history", "history rolling_friction epsd"),
+        "rolling epsd 0.1 0 &\n"),
     "wear is doubled": ("fix k all property/global k_finnie peratomtypepair 1 1e-9\n" + MESH.format("wear finnie") + WALL, "wear finnie 2e-09"),
     "a mesh that does not wear says so": (
         "fix k all property/global k_finnie peratomtypepair 1 1e-9\n" + MESH.format("wear finnie") + LID + BOTH_WALL,
@@ -296,6 +303,12 @@ LEFT = {
     "a restitution of 0": (
         "fix m5 all property/global coefficientRestitution peratomtypepair 1 0\npair_style gran model hertz\n",
         "a restitution of 0 between the types 1 and 1"),
+    "a restitution in units metal, between grains": (
+        "units metal\npair_style gran model hertz tangential history\n", "units metal, in which the restitution is not what the dashpots of LIGGGHTS return"),
+    "a restitution in units real, at a mesh": ("units real\n" + SPEED + SIZE + MESH.format("") + WALL.replace("hertz", "hooke"), "units real, in which the restitution"),
+    "a dashpot of rolling in units electron": (
+        "units electron\n" + ELASTIC + ROLLS + "pair_style gran model hertz tangential history rolling_friction epsd\n",
+        "units electron, in which coefficientRollingViscousDamping is not the part of the critical dashpot"),
     "a restart file": ("read_restart a.restart\n", "a restart file"),
     "superquadrics": ("atom_style superquadric\n", "atom_style superquadric"),
 }

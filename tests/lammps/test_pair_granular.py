@@ -534,6 +534,12 @@ def test_refusals(folder):
                               ("no law", "* *", "two atom types and a law"),
                               ("bad sub-model", "* * hooke 1 1 tangential mindlyn 1 1 1", "'mindlyn' is not a sub-model")):
         lmp.refused(name, script(ours(coeff)), folder, says)
+    exact = "* * hooke 1e4 {} tangential linear_nohistory 0 0 damping coeff_restitution"
+    lmp.refused("a restitution in metal", script(ours(exact.format(0.5)), units="metal"), folder, "in the law of types 1 and 1", "returns the restitution e",
+                "in those that are used it gives 9648.53")
+    lmp.refused("a part of a critical dashpot in metal", script(ours("* * law hooke/history 1e4 NULL 0 NULL 0.4 1 rolling epsd 0.3 0.2"), units="metal"), folder,
+                "(epsd or epsd3) is the part of the critical dashpot")
+    lmp.run_well(script(ours(exact.format(1)), units="metal", steps=1), folder)    # has no dashpot
     lmp.refused("no ghost velocities", script(ours("* * " + GRANULAR), more="comm_modify vel no"), folder, "comm_modify vel yes")
 
 

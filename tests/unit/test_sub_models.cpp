@@ -5,6 +5,7 @@
 #include "law/sub_models.h"
 
 #include "effects/effects.h"
+#include "support/table_laws.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
@@ -68,6 +69,40 @@ TEST(sub_models, have_a_case_in_the_table_of_effects)
     if (is_off(row)) continue;
     EXPECT_TRUE(seen.count(&*first)) << name_of(row);
   }
+}
+
+// With the formulas of LAMMPS and LIGGGHTS such a dashpot is the right one only where force is mass times acceleration.
+TEST(sub_models, that_are_a_part_of_the_critical_dashpot_are_refused_in_other_units)
+{
+  const auto is_refused = [](const ContactLaw &law, Real acceleration) {
+    try {
+      check_dashpots(law, acceleration);
+    } catch (const LawError &) {
+      return true;
+    }
+    return false;
+  };
+  std::set<std::string> refused;
+  each_law_of_table([&](const ContactLaw &law, const LawRows &rows) {
+    EXPECT_FALSE(is_refused(law, 1)) << name_of(rows);
+    if (!is_refused(law, 9648.5)) return;
+    bool has_one = false;
+    for (const SubModel *row : rows)
+      for (const char *name : {"tsuji", "coeff_restitution", "epsd", "epsd3"})
+        if (row && row->name == std::string(name)) {
+          refused.insert(name);
+          has_one = true;
+        }
+    EXPECT_TRUE(has_one) << name_of(rows);
+  });
+  EXPECT_EQ(refused, (std::set<std::string>{"tsuji", "coeff_restitution", "epsd", "epsd3"}));
+  // Without a dashpot there is none of another part.
+  ContactLaw law = granular_law(NormalModel::hooke);
+  law.damping = DampingModel::stiffness;
+  law.eta = restitution_damping(law.normal, 1);
+  EXPECT_FALSE(is_refused(law, 9648.5));
+  law.rolling = {RollingModel::epsd, {0.3, 0}};
+  EXPECT_FALSE(is_refused(law, 9648.5));
 }
 
 // ---- the page ------------------------------------------------------------------------------

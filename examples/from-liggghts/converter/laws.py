@@ -27,6 +27,7 @@ class Contact:
 
     def __init__(self, script, line, i, j):
         self.i, self.j, self.get = i, j, functools.partial(script.property, line)
+        self.other_units = script.other_units
         radii = [s[0] for s in script.sizes if s]
         self.radius = min(radii) if radii else None
 
@@ -42,7 +43,14 @@ class Contact:
         e = self.get("coefficientRestitution", self.i, self.j)
         if not 0 < e <= 1:
             raise Left(f"a restitution of {short(e)} between the types {self.i} and {self.j}", "one above 0, at most 1")
+        if e != 1:
+            self.check_units("the restitution is not what the dashpots of LIGGGHTS return")
         return -math.log(e) / math.hypot(math.log(e), math.pi)
+
+    def check_units(self, what):
+        """Dashpots of LIGGGHTS are a part of the critical one only where force is mass times acceleration."""
+        if self.other_units:
+            raise Left(f"units {self.other_units}, in which {what}", "units si, cgs, micro, nano or lj")
 
     def friction(self):
         return self.get("coefficientFriction", self.i, self.j)
@@ -129,6 +137,9 @@ class Model:
         if self.rolling:
             if self.rolling not in ROLLING:
                 raise Left(f"rolling_friction {self.rolling}", "cdt, epsd2, epsd or epsd3")
+            viscous = "coefficientRollingViscousDamping"
+            if viscous in ROLLING[self.rolling] and c.get(viscous, c.i, c.j) != 0:
+                c.check_units(f"{viscous} is not the part of the critical dashpot")
             words += f" rolling {self.rolling} " + " ".join(short(c.get(name, c.i, c.j)) for name in ROLLING[self.rolling])
         if self.cohesion:
             if self.cohesion != "sjkr":

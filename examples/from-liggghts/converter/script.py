@@ -38,6 +38,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
         self.meshes, self.mesh_of, self.walls, self.unchecked, self.used = {}, {}, {}, set(), set()    # by line; IDs
         self.turning = set()    # IDs of meshes that turn
         self.dumps, self.dumped, self.lattice = [], {}, False
+        self.other_units = None    # in which a force of 1 gives a mass of 1 another acceleration than 1
         self.files = {}    # bytes of files to write, by their paths
         self.gravity_names, self.gravities = set(), []    # the acceleration of each fix gravity, None where it is not known
         self.names = {"c_thermo_temp", "c_thermo_press", "c_thermo_pe"} | {
@@ -198,6 +199,8 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
             self.gravities.append(None)
         elif w[0] == "lattice":
             self.lattice = True
+        elif w[0] == "units" and w[1] in ("real", "metal", "electron"):
+            self.other_units = w[1]
 
     @staticmethod
     def style(w):

@@ -3,14 +3,16 @@
 
 #include "wall/spec/spec_units.h"
 
+#include "law/make_law.h"
 #include "wall/spec/spec_check.h"
 
 namespace lsdcd {
 
-WallSpec in_units(WallSpec spec, Real pressure)
+WallSpec in_units(WallSpec spec, Real pressure, Real velocity)
 {
   check_spec(spec);
   const auto convert = [&](ContactLaw &law) {
+    check_dashpots(law, velocity);
     if (law.is_classic() && law.is(NormalModel::hertz)) {
       law.k_normal /= pressure;
       law.k_tangent /= pressure;

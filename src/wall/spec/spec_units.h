@@ -9,7 +9,8 @@
 namespace lsdcd {
 
 // Checks a spec, as check_spec() does, and returns it with forces per area in place of pressures. `pressure`: a force per
-// area of 1, in the unit of pressure.
-WallSpec in_units(WallSpec spec, Real pressure);
+// area of 1, in the unit of pressure; `velocity`: a force times time over a mass, in the unit of velocity. Throws InputError, too, where
+// a law has a dashpot that these units do not allow (check_dashpots()).
+WallSpec in_units(WallSpec spec, Real pressure, Real velocity);
 
 }    // namespace lsdcd
