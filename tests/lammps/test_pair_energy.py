@@ -315,6 +315,13 @@ def test_ball_mill(folder):
             at_most("remainder over the work of the drive", abs(r["remainder"]), 1e-4)
 
 
+def test_two_gravities(folder):
+    """The energy in gravity is that of all fixes, each of its group: -m g x."""
+    move = "fix move all nve/sphere\nfix down all gravity 3 vector 0 0 -1\nfix aside two gravity 2 vector 1 0 0"
+    r = two(folder, "law hooke 1e4 NULL 0 NULL 0 0", 1e-3, "run 0", "1.5 0.25 0.5", move)
+    at_most("energy in gravity", abs(r["gravity"] - (3 * 0.5 - 2 * 1.5)), 1e-14)
+
+
 def test_read_as_a_step_begins(folder):
     """The balance alone is that of the whole step, though the speed of a belt reads books as the step begins."""
     stl.write(folder / "belt.stl", stl.square(3, -0.49))

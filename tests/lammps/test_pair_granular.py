@@ -69,12 +69,17 @@ CLASSIC = {"hooke": "hooke 1e4 NULL 30 NULL 0.4 1", "hooke_history": "hooke/hist
            "hertz_history": "hertz/history 1e4 NULL 300 NULL 0.4 1"}
 
 
-@pytest.mark.parametrize("law", CLASSIC)
+# The stiffnesses of hertz/history are pressures, a force per area times 68568 in units real.
+IN_REAL = "hertz/history 7e8 NULL 300 NULL 0.4 1"
+
+
+@pytest.mark.parametrize("law", [*CLASSIC.values(), IN_REAL], ids=[*CLASSIC, "hertz_history_in_real"])
 def test_classic(folder, law):
     """The styles before granular are those of LAMMPS, in its log's thermo table, too, but for the elastic energy."""
-    style, numbers = CLASSIC[law].split(" ", 1)
-    theirs = states(folder, f"pair_style gran/{style} {numbers}\npair_coeff * *", name="theirs")
-    own = states(folder, ours(f"* * law {CLASSIC[law]}"))
+    units = "real" if law == IN_REAL else "lj"
+    style, numbers = law.split(" ", 1)
+    theirs = states(folder, f"pair_style gran/{style} {numbers}\npair_coeff * *", name="theirs", units=units)
+    own = states(folder, ours(f"* * law {law}"), units=units)
     at_most(f"{law}: positions, velocities, forces, torques", lmp.largest_difference(theirs, own), 1e-10)
 
 

@@ -5,6 +5,7 @@
 #include "effects/effects.h"
 #include "support/laws.h"
 #include "support/meshes.h"
+#include "support/table_laws.h"
 
 #include <gtest/gtest.h>
 
@@ -46,6 +47,29 @@ TEST(effects, keep_the_bytes_of_the_table_and_no_others)
                          c.settings.law().keeps_forces || c.settings.impact_speed > 0;
     EXPECT_EQ(scene.engine->results().n_contacts(), records ? kSpheres : 0) << c.name;
   }
+}
+
+// What the log says of each effect is all that a contact keeps beside its spring.
+TEST(effects, have_bytes_that_add_up_to_those_of_a_contact)
+{
+  const auto check = [](const EngineSettings &s, const std::string &name) {
+    int bytes = 0;
+    for (const Effect &e : effects_of(s)) bytes += e.bytes_per_contact;
+    EXPECT_EQ(bytes, 8 * s.law().n_extra()) << name;
+  };
+  each_law_of_table([&](const ContactLaw &law, const LawRows &rows) {
+    EngineSettings s;
+    s.law() = law;
+    check(s, name_of(rows));
+  });
+  EngineSettings s;
+  s.law() = *law_of_rows({sub_models(Family::style).front()});
+  s.law().keeps_forces = true;
+  check(s, "books of energy");
+  s.law().keeps_at_nodes = true;
+  check(s, "books at nodes");
+  s.law().keeps_losses = true;
+  check(s, "losses at nodes");
 }
 
 std::vector<std::string> names_of(const EngineSettings &settings)

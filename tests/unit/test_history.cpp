@@ -4,6 +4,8 @@
 // How springs are handed on from one step's contacts to the next's.
 #include "contact/feature_turn.h"
 #include "contact/history.h"
+#include "engine/step/contact_energy.h"
+#include "law/smallest_model.h"
 #include "support/meshes.h"
 #include "support/random.h"
 
@@ -202,6 +204,45 @@ TEST(transfer_of, is_the_whole_spring_where_a_contact_goes_on_and_its_cosine_whe
 }
 
 // Two sheets in one place: the sphere crosses the same line of both, and neither may take the hold from the other.
+// A contact that is born beside others takes a part of their spring, and of the forces by which books know what it holds.
+TEST(transfer_of, hands_on_all_forces_of_a_spring_by_the_same_part)
+{
+  using Model = GranularModel<TouchingNormal, true, GranularSet::all>;
+  const OnWall<Model, true, true, false, true> law = {
+      granular_model<true, GranularSet::all>(granular_law(NormalModel::hooke),
+                                             TouchingNormal{NormalModel::hooke, 1, 0}),
+      {}};
+  KeptForces kept = {};
+  kept.friction = {1, 2, 0};
+  kept.friction_spring = {3, -1, 0};
+  kept.rolling = {0, 5, 0};
+  kept.rolling_spring = {-4, 2, 0};
+  kept.twisting = 7;
+  kept.twisting_spring = -6;
+  kept.k_friction = 10;
+  kept.k_rolling = 20;
+  kept.k_twisting = 30;
+  ASSERT_EQ(n_extra(law), 0);    // its numbers are those of the books alone
+  Spring spring = {};
+  spring.normal = {0, 0, 1};
+  SphereState s = {};
+  s.springs = &spring;
+  s.extra = &kept.held;
+  s.n_springs = 1;
+  const Real part = 0.25;
+  const KeptForces now = EnergyBook<std::decay_t<decltype(law)>>::handed_on(
+      law, ForceSettings(), s, Transfer{0, part}, spring.normal);
+  EXPECT_EQ(now.friction, part * kept.friction);
+  EXPECT_EQ(now.friction_spring, part * kept.friction_spring);
+  EXPECT_EQ(now.rolling, part * kept.rolling);
+  EXPECT_EQ(now.rolling_spring, part * kept.rolling_spring);
+  EXPECT_EQ(now.twisting, part * kept.twisting);
+  EXPECT_EQ(now.twisting_spring, part * kept.twisting_spring);
+  EXPECT_EQ(now.k_friction, kept.k_friction);
+  EXPECT_EQ(now.k_rolling, kept.k_rolling);
+  EXPECT_EQ(now.k_twisting, kept.k_twisting);
+}
+
 TEST(is_held, goes_on_across_a_cut_where_two_contacts_lie_in_its_direction)
 {
   const Cube cube;

@@ -225,6 +225,25 @@ TEST(insertion, what_finds_no_place_is_owed_and_tried_again)
   EXPECT_EQ(insertion.inserted(), 5);
 }
 
+TEST(insertion, the_wait_for_a_place_goes_on_after_a_restart)
+{
+  const InsertionPlan plan = at_once(5);
+  Feed<> first(plan);
+  first.site.side = 0.5;    // room for one
+  for (const std::int64_t step : {1, 2, 4, 8}) first.insert(step);
+  constexpr std::int64_t kSaved = 10;
+  Feed<> second(plan, kSaved);
+  const std::vector<Real> saved = first.state(kSaved).numbers();
+  second.restore(saved.data(), saved.size(), kSaved);
+  second.site.side = 0.5;
+  second.there = first.there;
+  std::int64_t step = 8;
+  for (const int wait : {8, 16, 20, 20}) {
+    EXPECT_EQ(second.next_step(), step += wait);
+    EXPECT_EQ(second.insert(step), 0U);
+  }
+}
+
 TEST(insertion, a_grain_without_a_place_does_not_hold_back_those_that_are_due_later)
 {
   InsertionPlan plan = plan_of(FeedSettings::by_number, 1);

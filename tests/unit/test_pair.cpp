@@ -234,6 +234,19 @@ TEST(pair, of_laws_with_other_sub_models_is_not_mixed)
   EXPECT_NO_THROW(mixed(a, a, "1 and 2"));
 }
 
+TEST(pair_coeff, keeps_limit_damping_and_the_larger_cutoff_where_it_is_mixed)
+{
+  const std::string words = "hooke 1000 30 tangential linear_nohistory 1 0.4 damping velocity";
+  const PairCoeff plain = read_pair_coeff(words_of(words)),
+                  limited = read_pair_coeff(words_of(words + " limit_damping cutoff 2"));
+  for (const PairCoeff &both :
+       {mixed(plain, limited, "1 and 2"), mixed(limited, plain, "1 and 2")}) {
+    EXPECT_TRUE(law_of(both).limit_damping);
+    EXPECT_EQ(both.cutoff, 2);
+  }
+  EXPECT_FALSE(law_of(mixed(plain, plain, "1 and 2")).limit_damping);
+}
+
 // Adhesion holds what has touched, up to 3 pi gamma R: overlap -(3 pi^2 gamma^2 R/(16 E^2))^(1/3).
 TEST(pair, under_jkr_parts_beyond_touch)
 {
@@ -311,6 +324,32 @@ TEST(pair, that_turns_as_one_body_keeps_its_spring)
   }
   EXPECT_NEAR(g.force[1], -first, 1e-11);
   EXPECT_NEAR(g.force[0], 100, 1e-10);
+}
+
+// heat area: h pi a^2 dT flows from the warm grain into the cold one, with one law and with several, whichever comes first.
+TEST(pair, loses_as_much_heat_as_it_gains)
+{
+  const ContactLaw law =
+      law_of_words("hooke 1000 30 tangential linear_nohistory 1 0.4 damping velocity heat area 7");
+  for (const bool several : {false, true})
+    for (const bool swapped : {false, true}) {
+      Grains g(2);
+      g.radius = {1.0, 0.5};
+      g.x = {1.4, 0, 0, 0, 0, 0};    // overlap 0.1
+      g.set_law(law);
+      if (several) g.laws.push_back(pair_law(law_of_words(kLaws[0])));
+      g.set_list(swapped);
+      const std::vector<Real> temperature = {300, 320};
+      std::vector<Real> heat(2);
+      PairJob job = g.job(true);
+      job.temperature = temperature.data();
+      job.heat = heat.data();
+      run_pairs(job);
+      // a^2 = R d with R = 1/3; products of six factors round to 6e-16 of themselves.
+      const Real flow = 7 * kPi * (1.0 / 3 * 0.1) * 20;
+      EXPECT_NEAR(heat[0], flow, 1e-14 * flow) << several << swapped;
+      EXPECT_NEAR(heat[1], -flow, 1e-14 * flow) << several << swapped;
+    }
 }
 
 TEST(pair, with_a_grain_that_does_not_move_has_the_mass_of_the_other)
@@ -730,6 +769,27 @@ TEST(partners, tell_images_of_one_grain_apart)
   pairs.length[0] = 1;
   partners.hand_out(pairs.list(), pairs.history, 0.95, 3, Images{{0, 1.9, 0}});
   EXPECT_EQ(pairs.history.size(), 0u);
+}
+
+// Books of energy, which a later run has, need more numbers of each pair: images are told apart as before.
+TEST(partners, tell_images_apart_where_they_are_given_more_numbers)
+{
+  OneRow pairs;
+  pairs.keep({1, 2, 3}, {4, 5, 6});
+  Partners partners;
+  partners.grow(3);
+  const Images there = {{0, 0.95, -0.95}};
+  partners.collect(pairs.list(), pairs.history, 1, {3, false, true}, there);
+  for (const PartnerForm form : {PartnerForm{5, false, true}, {4, true, true}, {3, false, true}}) {
+    partners.set_form(form);
+    partners.hand_out(pairs.list(), pairs.history, 0.95, 3, Images{{0, -0.95, 0.95}});
+    std::vector<Real> first = {4, 5, 6}, second = {1, 2, 3};
+    first.resize(static_cast<std::size_t>(form.width));
+    second.resize(static_cast<std::size_t>(form.width));
+    ASSERT_EQ(pairs.history.size(), 2u);
+    EXPECT_EQ(pairs.kept(0), first);
+    EXPECT_EQ(pairs.kept(1), second);
+  }
 }
 
 // The laws of grain 0 with 1 and 2 are of these kinds.
