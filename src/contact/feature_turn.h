@@ -107,7 +107,8 @@ LSDCD_FN void prefetch_turn([[maybe_unused]] const TurningMesh &m,
 
 // Turns a spring and the n_vectors vectors beside it with its feature. On a face it keeps the face's normal, to the last
 // bit. An edge and a vertex turn by the mean of the rotations of their faces, keeping lengths: the faces around a vertex
-// count twice, as each is beside two of its edges. An edge without a face turns by the smallest turn of its direction.
+// count twice, as each is beside two of its edges. An edge without a face turns by the smallest turn of its line: where its ends
+// have changed places it has not turned.
 LSDCD_FN void turn_with_feature(const TurningMesh &m, Spring &spring, Vec3 *beside, int n_vectors)
 {
   const int i = static_cast<int>(feature_index(spring.feature)), n = 2 + n_vectors;
@@ -130,7 +131,8 @@ LSDCD_FN void turn_with_feature(const TurningMesh &m, Spring &spring, Vec3 *besi
       add_faces_of_edge(m, m.mesh.vertex_edge[k], vectors, n, sums);
   if (sums.n_faces == 0 && kind == FeatureKind::edge) {
     const Vec3 was = direction_of_edge(m, i, m.from), now = direction_of_edge(m, i, m.to);
-    for (int k = 0; k < n; k++) vectors[k] = transport(vectors[k], was, now);
+    for (int k = 0; k < n; k++)
+      vectors[k] = transport(vectors[k], was, dot(was, now) < 0 ? -now : now);
   }
   for (int k = 0; k < n && sums.any; k++) {
     const Real length = norm(sums.sum[k]);

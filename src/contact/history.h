@@ -10,8 +10,8 @@
 
 namespace lsdcd {
 
-// Rotates a tangent vector by the smallest rotation that takes the unit vector `from` to `to` (not its
-// opposite). The length stays. On a face the normals of two steps are equal.
+// Rotates a tangent vector by the smallest rotation that takes the unit vector `from` to `to`, which is not near its
+// opposite: transfer_of() hands nothing on there. The length stays. On a face the normals of two steps are equal.
 LSDCD_FN Vec3 transport(const Vec3 &h, const Vec3 &from, const Vec3 &to)
 {
   if (from == to) return h;
@@ -101,6 +101,13 @@ LSDCD_FN bool is_left(const Set &set, int i, const Springs &old, int k)
   return true;
 }
 
+// As transport(), also where a feature may have turned its normal round since, as by nodes that go far in one step: nothing is
+// left then.
+LSDCD_FN Vec3 transport_unless_turned_round(const Vec3 &h, const Vec3 &from, const Vec3 &to)
+{
+  return dot(from, to) > -kMoved ? transport(h, from, to) : Vec3{0, 0, 0};
+}
+
 // The spring of the last step that a contact begins with, and the share of it.
 struct Transfer {
   int from;     // index of the old spring; -1: a new one
@@ -119,20 +126,21 @@ LSDCD_FN Real likeness_to_old(const ContactsView &, int, const Springs &, int, R
 //    the contact moved across a seam, the spring goes with it, whole. A contact with arms may jump over
 //    many triangles in one step, as under a flat side: of several it takes over the most alike one.
 // 3. Else the most alike spring times its likeness, of spheres max(0, n.n): a contact born beside
-//    others takes over as much of their force as it will carry in their stead.
+//    others takes over as much of their force as it will carry in their stead. Where n.n is not above 0 that
+//    is nothing, also of two contacts with arms that turn the grain alike, as between opposite walls.
 // Springs of other meshes hand over by 3 alone, as their features are not this wall's.
 template <class Set, class Springs>
 LSDCD_FN Transfer transfer_of(const MeshFeaturesView &wall, const Set &set, int i,
                               const Springs &old, int n_old)
 {
   int best = -1, moved = -1;
-  Real best_cos = 0, moved_cos = Set::kHasArms ? -1 : kMoved;    // a sphere's c is of_normals
+  Real best_cos = 0, moved_cos = Set::kHasArms ? -1 : kMoved;
   for (int k = 0; k < n_old; k++) {
     const Real of_normals = dot(old[k].normal, set.normal[i]);
     const bool own = is_own(old, k);
     if (own && old[k].feature == set.feature[i]) return {of_normals > -kMoved ? k : -1, 1};
     const Real c = likeness_to_old(set, i, old, k, of_normals);
-    if (c > best_cos) {
+    if (c > best_cos && (!Set::kHasArms || of_normals > 0)) {    // a sphere's c is of_normals
       best_cos = c;
       best = k;
     }

@@ -262,6 +262,49 @@ run             1000
     at_most("a periodic box: it goes as on three periods", lmp.largest_difference(*paths), 1e-11)
 
 
+def test_between_plates(folder):
+    """A rod turns between two plates: one end touches below, then the other one above, so that both contacts turn it alike with normals that are opposite,
+    or nearly so. Nothing of a spring goes from one to the other: without friction the rod goes as with a law that has no spring, and with friction it does
+    not gain energy."""
+    def go_between(law, tilt):
+        low, high = 0.6 - 3 * tilt, 0.6 + 3 * tilt
+        upper = stl.quad((-3, -3, low), (-3, 3, low), (3, 3, high), (3, -3, high))
+        stl.write(folder / "slit.stl", stl.square(3, -0.6) + upper)
+        rows = lmp.read_thermo(lmp.run_well(head("-3 3 -3 3 -3 3", "ellipsoid") + f"""\
+create_atoms    1 single 0 0 -0.002 units box
+set             atom 1 mass 1
+set             atom 1 shape 2 0.4 0.4
+set             atom 1 quat 0 1 0 20
+set             atom 1 angmom 0 0.4 0
+pair_style      zero 2.2
+pair_coeff      * *
+fix             move all nve/asphere
+fix             wall all wall/lsdcd {law} mesh slit.stl
+compute         turn all erotate/asphere
+compute         each all property/atom angmomy
+compute         spin all reduce sum c_each
+variable        z equal z[1]
+timestep        1e-4
+thermo_style    custom step pe ke c_turn v_z c_spin
+thermo_modify   format float %.17g norm no
+thermo          500
+run             5000
+""", folder))
+        fact(f"between plates, {law}, {tilt}: all are numbers", rows[-1][0] == 5000 and all(map(math.isfinite, sum(rows, []))), str(rows[-1]))
+        return rows
+
+    hertz = "granular hertz 1e5 0 damping velocity tangential"
+    laws = ("hooke 1e4 NULL 0 NULL 0 1", "hooke/history 1e4 7e3 0 0 {mu} 1"), (f"{hertz} linear_nohistory 0 0", hertz + " mindlin 7e4 0 {mu}")
+    for plain, spring in laws:
+        for tilt in (0, 1e-9):
+            without, smooth, rough = (go_between(law, tilt) for law in (plain, spring.format(mu=0), spring.format(mu=0.5)))
+            name = f"between plates, {spring}, {tilt}"
+            fact(f"{name}: it is turned back", without[-1][5] < -0.3, str(without[-1]))
+            at_most(f"{name}: without friction it goes as without a spring", max(abs(u - v) for a, b in zip(without, smooth) for u, v in zip(a, b)), 1e-12)
+            first, last = (sum(row[1:4]) for row in (rough[0], rough[-1]))
+            fact(f"{name}: with friction it gains nothing", 0 < last <= first, str(rough))
+
+
 def test_rerun(folder):
     """LAMMPS reads no orientation from a dump: the grains would lie as they did before."""
     stl.write(folder / "plane.stl", stl.square(6))

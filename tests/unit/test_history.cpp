@@ -3,6 +3,7 @@
 
 // How springs are handed on from one step's contacts to the next's.
 #include "contact/feature_turn.h"
+#include "contact/grain_contacts.h"
 #include "contact/history.h"
 #include "engine/step/contact_energy.h"
 #include "law/smallest_model.h"
@@ -87,6 +88,36 @@ TEST(turn_with_feature, is_the_smallest_turn_of_an_edge_that_no_face_has)
   EXPECT_LT(norm(spring.normal - Vec3{-0.6, 0, 0.8}), tolerance);
   EXPECT_LT(norm(spring.shear - Vec3{-2, 1, 3}), tolerance);
   EXPECT_LT(norm(beside - Vec3{-5, 4, 6}), tolerance);
+}
+
+// A line has no sense: where the ends of an edge have changed places in a step, no smallest turn of its direction is the one.
+TEST(turn_with_feature, leaves_what_is_on_an_edge_whose_ends_change_places)
+{
+  const int edges[] = {0, 1}, edge_first[] = {0, 0};
+  MeshTopologyView mesh = {};
+  mesh.edges = edges;
+  mesh.edge_first = edge_first;
+  mesh.n_edges = 1;
+  mesh.n_vertices = 2;
+  for (const Real off : {0., 1e-12}) {
+    const Vec3 from[] = {{1, 0, 0}, {3, 0, 0}}, to[] = {{3, 0, off}, {1, 0, 0}};
+    Spring spring = {{1, 2, 3}, {0, 0.6, 0.8}, feature_code(FeatureKind::edge, 0), 0};
+    Vec3 beside = {4, 5, 6};
+    turn_with_feature({mesh, nullptr, from, to}, spring, &beside, 1);
+    // The line has turned by off/2, and vectors up to 9 long by as much.
+    const Real tolerance = 9 * off + 8 * 16 * kRoundoff;
+    EXPECT_LT(norm(spring.normal - Vec3{0, 0.6, 0.8}), tolerance) << off;
+    EXPECT_LT(norm(spring.shear - Vec3{1, 2, 3}), tolerance) << off;
+    EXPECT_LT(norm(beside - Vec3{4, 5, 6}), tolerance) << off;
+  }
+}
+
+TEST(transport, leaves_nothing_of_a_vector_whose_normal_has_turned_round)
+{
+  const Vec3 h = {0.1, 0.2, 0}, up = {0, 0, 1};
+  for (const Vec3 &to : {Vec3{0, 0, -1}, Vec3{1e-9, 0, -1}, Vec3{0.6, 0, -0.8}})
+    EXPECT_EQ(transport_unless_turned_round(h, up, to), (Vec3{0, 0, 0}));
+  EXPECT_EQ(transport_unless_turned_round(h, up, {0.8, 0, -0.6}), transport(h, up, {0.8, 0, -0.6}));
 }
 
 // ---- the three rules -------------------------------------------------------------------
@@ -201,6 +232,40 @@ TEST(transfer_of, is_the_whole_spring_where_a_contact_goes_on_and_its_cosine_whe
       EXPECT_EQ(h, kShear) << row.what;
     }
   }
+}
+
+// A rod that lies along x, and turns about y, touches with both ends: below on the left, and above on the right. Both contacts turn it
+// alike, so that they are alike by more than half, and yet push it in opposite directions, or at more than a right angle.
+TEST(transfer_of, hands_nothing_on_between_arms_whose_normals_point_apart)
+{
+  const Cube cube;
+  const Real about_y = 1.04 / 5;    // inertia over mass of the half-axes 1, 0.2, 0.2
+  const GrainMetric metric = {
+      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+      {std::sqrt(5 / 0.08), std::sqrt(1 / about_y), std::sqrt(1 / about_y)}};
+  const Spring spring = {kShear, kUp, kHere, 0};
+  const Spring *const old = &spring;
+  const Real arm[] = {-0.9, 0, -0.1};
+  const OldGrainContacts<const Spring *> with_arms = {old, arm, 3, metric};
+  const auto taken = [&](const Vec3 &normal, const Vec3 &at) {
+    const GrainContact contact = {kFar,   normal, 0.01, at, at, metric.direction(normal, at),
+                                  &metric};
+    const GrainContactsView set = {1, &contact, nullptr};
+    const Real alike = dot(contact.direction, old_direction(with_arms, 0));
+    EXPECT_GT(alike, 0.5);
+    const Transfer in = transfer_of(cube.view, set, 0, with_arms, 1);
+    if (in.from == 0) {
+      EXPECT_EQ(in.part, alike);
+    }
+    return in.from;
+  };
+  for (const Real degrees : {95., 120., 179., 180 - 1e-7, 180.}) {
+    const Real a = degrees * kPi / 180;
+    // The arm is where it turns the rod about y: across the normal, which leans in x.
+    const Vec3 normal = {std::sin(a), 0, std::cos(a)};
+    EXPECT_EQ(taken(normal, 0.9 * Vec3{-std::cos(a), 0, std::sin(a)}), -1) << degrees;
+  }
+  EXPECT_EQ(taken(leaning(60), 0.9 * Vec3{-0.5, 0, 0.8}), 0);
 }
 
 // Two sheets in one place: the sphere crosses the same line of both, and neither may take the hold from the other.

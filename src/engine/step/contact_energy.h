@@ -381,7 +381,8 @@ struct EnergyBook {
     for (int k = 0; k < (Law::kContactTorque ? 4 : 2); k++) {
       Vec3 *const h = vectors[k];
       if constexpr (Law::kNodes)
-        if (!(was == Vec3{0, 0, 0})) *h = transport(*h, was, s.springs[in.from].normal);
+        if (!(was == Vec3{0, 0, 0}))
+          *h = transport_unless_turned_round(*h, was, s.springs[in.from].normal);
       *h = lsdcd::handed_on(in_own_frame(s.springs, in.from, *h), in, s.springs, n);
       if (settings.surface_moves)
         *h = turn_about(n, settings.dt * dot(settings.surface.angular, n), *h);
