@@ -10,6 +10,8 @@
 //   kMidpoint          can friction and slip be taken at the middle of the overlap (is_at_midpoint())? Else they are at the
 //                      radius
 //   evaluate(contact, memory)    of a Contact or a PairContact
+//   friction_spring(contact, begun, memory)    with kHistory, at a wall: the spring of friction, with the memory before and after
+//                      evaluate()
 // and, with kVectors or kScalars, and with kHeat
 //   stores(k)           is the k-th of these vectors and scalars stored from step to step?
 //   has_heat()         is there a heat flow?
@@ -69,14 +71,27 @@ struct ContactModel {
   LSDCD_FN ForceParts parts(const C &c, const Vec3 &begun, const Vec3 &shear,
                             const ContactForce &out) const
   {
-    const Real scale = this->scale(c);
     ForceParts parts = {};
-    parts.elastic = elastic.force(c, scale);
+    parts.elastic = elastic.force(c, scale(c));
     if constexpr (kHistory)
-      parts.friction = {in_plane(begun, c.normal), shear, scale * tangential.k, true};
+      parts.friction = friction_spring(c, begun, shear);
     else
       parts.slides = is_below(out.tangential, c.mass * tangential.gamma, c.v_tangent);
     return parts;
+  }
+  // Returns the spring of friction in a step, which was `begun` and is `shear`.
+  template <class C>
+  LSDCD_FN SpringPart friction_spring(const C &c, const Vec3 &begun, const Vec3 &shear) const
+  {
+    if constexpr (kHistory)
+      return {in_plane(begun, c.normal), shear, scale(c) * tangential.k, true};
+    else
+      return {};
+  }
+  LSDCD_FN SpringPart friction_spring(const Contact &c, const ContactMemory<0> &begun,
+                                      const ContactMemory<0> &memory) const
+  {
+    return friction_spring(c, begun.shear, memory.shear);
   }
 };
 
@@ -146,6 +161,11 @@ struct AddedModel {
     }
     if (cohesion.is_on()) parts.elastic -= cohesion.pull(c);
     return parts;
+  }
+  LSDCD_FN SpringPart friction_spring(const Contact &c, const ContactMemory<kExtra> &begun,
+                                      const ContactMemory<kExtra> &memory) const
+  {
+    return base.friction_spring(c, begun.shear, memory.shear);
   }
 };
 
@@ -274,6 +294,14 @@ struct GranularModel {
       }
     }
     return parts;
+  }
+  // Returns the spring of friction at a wall in a step.
+  LSDCD_FN SpringPart friction_spring(const Contact &c, const ContactMemory<kExtra> &begun,
+                                      const ContactMemory<kExtra> &memory) const
+  {
+    if (!tangential.spring) return {};
+    const Real a = tangential.by_radius || tangential.rescale ? elastic.contact_radius(c) : 0;
+    return tangential.part(c, a, begun, memory, kRadius, 0);    // the limit is for pairs alone
   }
 
  private:

@@ -20,6 +20,14 @@ struct SpringPart {
   bool projected = false;
 
   LSDCD_FN Vec3 force() const { return -k * ends; }
+  // Returns what the limit cuts off a path of the contact, of which the spring holds the rest.
+  LSDCD_FN Vec3 cut_off(const Vec3 &path) const { return begins + path - ends; }
+  // Is that more than rounding?
+  LSDCD_FN bool is_cut(const Vec3 &cut, const Vec3 &path) const
+  {
+    constexpr Real kRounding = 1e-9;
+    return norm(cut) > kRounding * (norm(path) + norm(begins));
+  }
 };
 
 struct ForceParts {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "law/contact.h"
+#include "law/force_parts.h"
 
 namespace lsdcd {
 
@@ -16,21 +17,34 @@ struct Wear {
   Real per_work = 0;    // volume per work: K/H (archard), K (finnie); 1/pressure
 };
 
-// The wearing power, to be multiplied by Wear::per_work. `force` is the contact's normal
-// force (0 where it pulls), `slip` the speed of the sphere's surface along the wall's,
-// v_normal > 0 and v_along the velocity of its centre away from the wall and along it.
-//
-// archard: F_n slip (Archard 1953, V = K F s/H). finnie: f(a) F_n v with the impact
-// angle a, tan a = -v_normal/v_along, and f(a) = sin 2a - 3 sin^2 a up to tan a = 1/3,
-// cos^2 a/3 above (Finnie 1960); nothing while the sphere leaves.
-LSDCD_FN Real wear_power(WearModel model, Real force, Real slip, Real v_normal, Real v_along)
+// Returns the wearing power of finnie, to be multiplied by Wear::per_work: f(a) F_n v with the impact angle a, tan a =
+// -v_normal/v_along, and f(a) = sin 2a - 3 sin^2 a up to tan a = 1/3, cos^2 a/3 above (Finnie 1960); nothing while the sphere
+// leaves. `force` is the contact's normal force (0 where it pulls), v_normal > 0 and v_along the velocity of its centre away from
+// the wall and along it.
+LSDCD_FN Real finnie_power(Real force, Real v_normal, Real v_along)
 {
-  if (model == WearModel::archard) return force * slip;
   if (!(v_normal < 0)) return 0;
   const Real v_sq = v_normal * v_normal + v_along * v_along, v = sqrt(v_sq);
   const Real sine = -v_normal / v, cosine = v_along / v;
   const Real f = 3 * sine < cosine ? 2 * sine * cosine - 3 * sine * sine : cosine * cosine / 3;
   return f * force * v;
+}
+
+// Returns the speed (length/time) at which surfaces slip beyond the spring of friction: surfaces that stick move as far as it
+// stretches, and wear nothing. Without a spring it is all of the tangential speed. Times F_n it is the wearing power of archard
+// (Archard 1953, V = K F_n s/H). `begun`, `now`: the contact's memory before and after evaluate().
+template <class Law, class Memory>
+LSDCD_FN Real slip_speed([[maybe_unused]] const Law &law, const Contact &c,
+                         [[maybe_unused]] const Memory &begun, [[maybe_unused]] const Memory &now)
+{
+  if constexpr (Law::kHistory) {
+    const SpringPart spring = law.friction_spring(c, begun, now);
+    if (spring.k > 0 && c.dt > 0) {
+      const Vec3 path = c.dt * c.v_tangent, cut = spring.cut_off(path);
+      return spring.is_cut(cut, path) ? norm(cut) / c.dt : 0;
+    }
+  }
+  return norm(c.v_tangent);
 }
 
 }    // namespace lsdcd

@@ -251,6 +251,35 @@ def test_from_slip_to_rolling(folder):
     nothing_but(b, half, "slider", "damping", "inserted")
 
 
+def test_archard_and_the_slider(folder):
+    """Archard's V = K/H F_n s has the way that the slider has: it is K/(H mu) times what that loses where friction is limited by mu F_n, and the same
+    without books. A sphere on a belt slips until it rolls; one that sticks to a belt that swings by less than friction holds wears nothing."""
+    mu, g = 0.3, 100.0
+    per_work = 1e-3 / 50
+    hertz, deep = "granular hertz 1e6 50 damping velocity tangential", (g / (1e6 * math.sqrt(0.5))) ** (2 / 3)
+    slow = f"fix move all nve/sphere\nfix g all gravity {g} vector 0 0 -1"
+    # It begins where its weight is borne. With LAMMPS's friction a dashpot would lose along the way of the spring, too, in the slider's row.
+    for law, z in ((f"hooke/history {KN} 1e4 60 0 {mu} 1", 0.5 - g / KN), (f"{hertz} mindlin 1e6 0 {mu}", 0.5 - deep),
+                   (f"{hertz} mindlin_liggghts 1e6 0.2 {mu}", 0.5 - deep)):
+        both = []
+        for words in ("energy", ""):
+            columns = [*COLUMNS, "f_wall[10]"] if words else ["f_wall[10]"]
+            script = SPHERE.replace("mesh floor.stl energy", f"mesh floor.stl wear archard 1e-3 50 {words} surface_vel 1 0 0")
+            rows = lmp.read_thermo(lmp.run_well(script.format(x=f"-1 0.2 {z!r}", v="0 0 0", law=law, dt="2e-5", columns=" ".join(columns),
+                                                             move=slow, run="run 1000\nrun 500"), folder))
+            both.append(rows[-1])
+        slider, worn = dict(zip(("step", "ke", "spin", *NAMES), both[0]))["slider"], both[0][-1]
+        fact(f"{law}: it slides", slider > 0.05, slider)
+        # The first step has the mean of no force and all of it with the slider, and all of it with wear: half of one of some 500 steps of slip.
+        close(f"{law}: times mu H/K the slider's", worn * mu / per_work, slider, slider, 2e-3)
+        close(f"{law}: without books", both[1][-1], worn, worn, 1e-12)
+    # Swung by 1e-5: a spring of 1e4 holds 0.1 of the 30 that friction does.
+    script = SPHERE.replace("mesh floor.stl energy", "mesh floor.stl wear archard 1e-3 50 energy motion wiggle 1e-5 0 0 0.02")
+    row = lmp.read_thermo(lmp.run_well(script.format(x=f"0.3 0.2 {0.5 - g / KN!r}", v="0 0 0", law=f"hooke/history {KN} 1e4 60 0 {mu} 1", dt="2e-5",
+                                                     columns="f_wall[10]", move=slow, run="run 4000"), folder))[-1]
+    fact("what sticks wears nothing", row[3] == 0, row)
+
+
 def test_rolling_and_twisting(folder):
     """A sphere that is turned where it lies: mu F R angle by rolling, mu F angle by twisting, less what the springs hold."""
     w, dt, n = 2.0, 1e-4, 5000

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace lsdcd::test_wear {
 namespace {
@@ -37,20 +39,24 @@ MeshLoads drive(Scene &scene, const Vec3 &from, const Vec3 &v, Real dt, int n, R
 }
 
 // Archard: V = K F s/H, whatever the triangles; each face has the part of the way that the
-// sphere was over it.
+// sphere was over it. A spring takes the first part of the way, until with the dashpot it is at the limit.
 TEST(wear, of_archard_is_force_times_way)
 {
   const Vec3 v = {0.9, 0.63, 0}, from = {-1.4, -0.9, kRadius - kOverlap};
-  const Real per_work = 1e-3 / 50, dt = 1e-3;
-  for (const EngineSettings &law :
-       {hooke(kStiffness, 0, 100, 0.3), hooke_history(kStiffness, 3e4, 0, 20, 0.3)}) {
+  const Real per_work = 1e-3 / 50, dt = 1e-3, mu = 0.3, k = 3e4, gamma = 20, speed = norm(v),
+             stretched = (mu * kStiffness * kOverlap - kMass * gamma * speed) / k;
+  for (const bool spring : {false, true}) {
+    const EngineSettings law =
+        spring ? hooke_history(kStiffness, k, 0, gamma, mu) : hooke(kStiffness, 0, 100, mu);
     Scene scene(floor_mesh(16, 2, 5), kRadius, worn(law, WearModel::archard));
     const MeshLoads loads = drive(scene, from, v, dt, 3000, per_work);
-    const Real whole = per_work * kStiffness * kOverlap * norm(v) * 3;
+    const Real per_way = per_work * kStiffness * kOverlap, sticks = spring ? stretched : 0,
+               whole = per_way * (speed * 3 - sticks);
     EXPECT_NEAR(loads.worn(), whole, 1e-11 * whole);
 
     const std::vector<Load> faces = loads.of_faces(scene.mesh);
-    std::vector<Real> steps_over(faces.size(), 0);
+    std::vector<Real> way_over(faces.size(), 0);
+    std::vector<int> steps_over(faces.size(), 0);
     for (int i = 1; i <= 3000; i++) {
       const Vec3 p = from + (i * dt) * v;
       for (std::size_t f = 0; f < faces.size(); f++) {
@@ -61,17 +67,80 @@ TEST(wear, of_archard_is_force_times_way)
           const Real turn = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
           inside[turn < 0] = false;
         }
-        steps_over[f] += inside[0] || inside[1];
+        if (!inside[0] && !inside[1]) continue;
+        steps_over[f]++;
+        way_over[f] +=
+            std::fmax(i * dt * speed - sticks, 0) - std::fmax((i - 1) * dt * speed - sticks, 0);
       }
     }
     Real sum = 0;
     for (std::size_t f = 0; f < faces.size(); f++) {
-      EXPECT_NEAR(faces[f].worn, whole * steps_over[f] / 3000, 1e-11 * whole) << "face " << f;
+      EXPECT_NEAR(faces[f].worn, per_way * way_over[f], 1e-11 * whole) << "face " << f;
       EXPECT_NEAR(faces[f].contacts, dt * steps_over[f], 1e-11);
       sum += faces[f].worn;
     }
     EXPECT_NEAR(sum, whole, 1e-11 * whole);
   }
+}
+
+// Every law that has a spring: what is moved to and fro by less than friction holds wears nothing, and what slides on wears F_n s.
+TEST(wear, of_archard_is_none_while_friction_holds)
+{
+  struct Case {
+    const char *name;
+    EngineSettings law;
+  };
+  std::vector<Case> cases = {{"hooke/history", hooke_history(kStiffness, 3e4, 0, 1, 0.3)},
+                             {"hertz/history", hertz_history(kStiffness, 3e4, 0, 1, 0.3)}};
+  for (const NormalModel normal : {NormalModel::hooke, NormalModel::hertz, NormalModel::jkr})
+    for (const TangentialModel tangential :
+         {TangentialModel::linear_history, TangentialModel::linear_history_slip,
+          TangentialModel::linear_history_liggghts, TangentialModel::mindlin,
+          TangentialModel::mindlin_force, TangentialModel::mindlin_slip,
+          TangentialModel::mindlin_liggghts, TangentialModel::mindlin_rescale,
+          TangentialModel::mindlin_rescale_force}) {
+      EngineSettings s = granular(normal, kStiffness, normal == NormalModel::jkr ? 1e-3 : 0);
+      s.law().damping = DampingModel::velocity;
+      s.law().eta = 1;
+      s.law().xgammat = 1;
+      s.law().tangential = tangential;
+      s.law().k_tangent = 3e4;
+      s.law().mu = 0.3;
+      cases.push_back({"granular", s});
+    }
+  const Real dt = 1e-5, speed = 0.2;
+  const Vec3 from = {0.1, 0.2, kRadius - kOverlap}, v = {speed * 0.6, speed * 0.8, 0};
+  for (const bool energy : {false, true})
+    for (Case &c : cases) {
+      c.law.law().keeps_forces = energy;
+      Scene scene(floor_mesh(16, 2, 5), kRadius, worn(c.law, WearModel::archard));
+      scene.add_sphere(from, kRadius, kMass, v);
+      Vec3 x = from;
+      // Moves n steps at a velocity. Returns what is worn, over F_n of the last one.
+      const auto worn_in = [&](int n, Real part) {
+        Real worn = 0, normal = 0;
+        for (int i = 0; i < n; i++) {
+          x += (dt * part) * v;
+          scene.set_x(0, x);
+          scene.set_v(0, part * v);
+          scene.compute(dt);
+          const StepContact &contact = scene.engine->results().contacts()[0];
+          worn += dt * contact.wear_power;
+          normal = contact.normal;
+        }
+        return worn / normal;
+      };
+      const std::string name =
+          std::string(c.name) + " normal " + std::to_string(static_cast<int>(c.law.law().normal)) +
+          " tangential " + std::to_string(static_cast<int>(c.law.law().tangential)) +
+          (energy ? " with books" : "");
+      // A springs's force of 3e4 times its stretch of 2e-4, or times the contact radius, too: less than 0.3 times the 30 of the least normal force.
+      EXPECT_EQ(worn_in(100, 1) + worn_in(200, -1) + worn_in(150, 1), 0) << name;
+      worn_in(15000, 1);    // to the limit, which is at 0.01 or, over the contact radius, at 0.02
+      // The spring is as long as before to rounding, 1e-16 of 0.1 in each of 100 steps, of a way of 2e-4.
+      EXPECT_NEAR(worn_in(100, 1), 100 * dt * speed, 1e-10 * 100 * dt * speed) << name;
+      EXPECT_EQ(worn_in(100, -1), 0) << name;
+    }
 }
 
 // A belt wears under a sphere that stays; one that moves with it does not wear it.

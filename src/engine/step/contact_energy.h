@@ -71,11 +71,10 @@ LSDCD_FN SpringLoss spring_loss(const SpringPart &spring, bool slides, const Vec
 {
   Vec3 cut = {0, 0, 0};
   if (spring.k > 0)
-    cut = spring.begins + path - spring.ends;
+    cut = spring.cut_off(path);
   else if (slides)
     cut = path;
-  constexpr Real kRounding = 1e-9;
-  const bool is_cut = norm(cut) > kRounding * (norm(path) + norm(spring.begins));
+  const bool is_cut = spring.is_cut(cut, path);
   const Real dashpot = -0.5 * dot(now - spring.force() + old - old_spring, path - cut);
   SpringLoss loss;
   loss.slider = -0.5 * dot(now + old, cut) + (is_cut ? dashpot : 0);

@@ -393,7 +393,9 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       kept = {set.feature[i],           mesh,         normal, norm(tangential), 0,
               -normal * n - tangential, s.x - closest};
       if (settings.wear != WearModel::none)
-        kept.wear_power = wear_power(settings.wear, pressing, norm(c.v_tangent), away, norm(along));
+        kept.wear_power = settings.wear == WearModel::finnie
+                              ? finnie_power(pressing, away, norm(along))
+                              : pressing * slip_speed(law, c, begun, memory);
     }
     out.n_contacts++;
 

@@ -26,6 +26,20 @@ bool reads_radius(const GranularModel<Normal, kHistory, GranularSet::few> &law)
   return law.uses_contact_radius || law.elastic.uses_contact_radius();
 }
 
+// Returns friction_spring() of the law `of`, whose memory but for the spring is of effects that are off.
+template <class Base>
+SpringPart spring_of(const LawBytes &of, const Contact &c, const Vec3 &begun, const Vec3 &shear)
+{
+  if constexpr (Base::kHistory) {
+    ContactMemory<Base::kExtra> before = {}, after = {};
+    before.shear = begun;
+    after.shear = shear;
+    return of.as<Base>().friction_spring(c, before, after);
+  } else {
+    return {};
+  }
+}
+
 // Returns a law for shapes by one of spheres; all of them have the kernels of walls that move and keep contacts.
 template <class Base>
 CompiledLaw<CpuBackend> compiled(const Base &base, ShapeWork &work)
@@ -37,7 +51,9 @@ CompiledLaw<CpuBackend> compiled(const Base &base, ShapeWork &work)
   const auto evaluate = [](const LawBytes &of, const Contact &c, ContactMemory<0> &memory) {
     return static_cast<ContactForce>(of.as<Base>().evaluate(c, memory));
   };
-  const Law law = {{&work.laws.back(), evaluate, reads_radius(base), &work, nullptr, nullptr}, {}};
+  const Law law = {
+      {&work.laws.back(), evaluate, spring_of<Base>, reads_radius(base), &work, nullptr, nullptr},
+      {}};
   return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
 }
 
@@ -64,7 +80,7 @@ CompiledLaw<CpuBackend> booked(const Base &base, bool reads, [[maybe_unused]] bo
   const auto energy = [](const LawBytes &of, const Contact &c, Real overlap) {
     return of.as<Base>().normal_energy(c, overlap);
   };
-  Law law = {{&work.laws.back(), evaluate, reads, &work, parts, energy}, {}};
+  Law law = {{&work.laws.back(), evaluate, spring_of<Base>, reads, &work, parts, energy}, {}};
   if constexpr (kRecords) law.keeps_losses = keeps_losses;
   return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
 }

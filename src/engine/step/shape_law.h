@@ -62,6 +62,9 @@ struct ShapeLaw {
 
   const LawBytes *base;    // one of work->laws
   ContactForce (*evaluate_base)(const LawBytes &base, const Contact &, ContactMemory<0> &);
+  // friction_spring() with the spring before and after.
+  SpringPart (*spring_of_base)(const LawBytes &base, const Contact &, const Vec3 &begun,
+                               const Vec3 &shear);
   bool reads_radius;    // does it read Contact::radius?
   ShapeWork *work;
   // Of a law with kBooks: parts() with the spring before and after, and normal_energy().
@@ -78,6 +81,11 @@ struct ShapeLaw {
     static_cast<ContactForce &>(force) = evaluate_base(*base, c, sliding);
     memory.shear = sliding.shear;
     return force;
+  }
+  template <class Memory>
+  SpringPart friction_spring(const Contact &c, const Memory &begun, const Memory &memory) const
+  {
+    return spring_of_base(*base, c, begun.shear, memory.shear);
   }
   template <class Memory>
   ForceParts parts(const Contact &c, const Memory &begun, const Memory &memory,
