@@ -151,6 +151,14 @@ WRITTEN = {
     "set of one spin of a grain at rest": (
         "create_atoms 1 single 0 0 0\nset atom 1 diameter 0.2 omegay 3 vz -1\n",
         "set atom 1 diameter 0.2 density 1 vz -1 omega 0 3 0\n"),
+    "growth that is not taken back": ("variable d equal 1.1\nfix a all adapt 40 atom diameter v_d reset yes scale no\n", "adapt 40 atom diameter v_d mass yes\n"),
+    "degrees of freedom, which ke does not hang on": (
+        "thermo_style custom ke\ncompute_modify thermo_temp dynamic yes extra 3\n",
+        "# compute_modify thermo_temp dynamic yes extra 3: ke does not hang on it in LIGGGHTS\ncompute_modify  thermo_temp extra/dof 0 dynamic/dof yes\n"),
+    "degrees of freedom of a temperature that is printed": (
+        "thermo_style custom temp ke\ncompute_modify thermo_temp extra 3\n", "# NOTE in.there:6: ke is that of the grains and degrees of freedom of temp here, "
+        "so 0 of a single grain, in LIGGGHTS that of all grains: compute ID all ke has it\ncompute_modify thermo_temp extra/dof 3\n"),
+    "a temperature of some grains": ("thermo_style custom ke\ncompute t some temp\nthermo_modify temp t\n", "# NOTE in.there:7: ke is that of the grains"),
     "set of all spins, twice": (
         ONE_GRAIN + "set atom 1 omegaz 3 omegax 1 omegay 2\nset atom 1 omegax 0 omegay 0 omegaz 0\n", "set atom 1 omega 1 2 3\nset atom 1 omega 0 0 0\n"),
     "a density before the diameter": (
@@ -236,6 +244,9 @@ LEFT = {
     "the diameter of a type without a density": (
         ONE_GRAIN + "create_atoms 2 single 1 0 0\nset type 1 density 2500\nset type 2 diameter 0.01\n", "set diameter of grains whose density is not known here"),
     "a time that begins anew": ("variable t equal 2*time\nrun 1\nreset_timestep 0\n", "reset_timestep of a script with time in a variable"),
+    "growth by a variable of each grain": (
+        "compute r all property/atom radius\nvariable d atom 1.001*2*c_r\nfix a all adapt 40 atom diameter v_d\n", "the atom-style variable d of fix adapt"),
+    "growth by a factor of each time": ("variable d equal 1.1\nfix a all adapt 40 atom diameter v_d scale no scale yes\n", "scale yes of fix adapt"),
     "discs": (MATERIAL + "dimension 2\n", "dimension 2: the grains of LIGGGHTS are discs there"),
     "a body whose contacts are damped": (BODY.format("") + WALL, "contacts of cad that are damped"),
     "a body whose contacts are damped by numbers": (
@@ -613,6 +624,49 @@ LEFT_INSIDE = {
     "a suspension over the runs of a loop": (
         BODY.format("forceflags 0 0 1 torqueflags 0 0 0 suspension k_t 1 c_t 2 k_r 3 c_r 4") + LOOP.format("run 1\n"), "fix cad", "suspension of a mesh"),
 }
+# Words that stand twice: commands with {} in place of them, then pairs (words, the only ones of these that count in LIGGGHTS 3.8.0, as its runs have shown, or of
+# bodies the source of LIGGGHTS-PFM). The scripts ..._twice of PHYSICS run in both programs.
+TWO_SIZES = GRAINS.replace("atom_type 1 density constant 2500 radius constant 0.002", "{}")
+OF_RATE = ONE + BEFORE + "fix i all insert/rate/region seed 7 distributiontemplate d region r {}\n"
+OF_WALL = MESH.format("") + LID + "fix w all wall/gran model hertz tangential history {}\n"
+CONSTANT = "atom_type 1 density constant 2500 radius constant 0.002"
+TWICE = {
+    TWO_SIZES + "fix d all particledistribution/discrete 3 1 p1 1\n" + NINE: [
+        (f"{CONSTANT} {word}", re.sub(rf"{word.split()[0]}( constant)? \S+", word, CONSTANT))
+        for word in ("atom_type 2", "density constant 1000", "radius constant 0.003")] + [(f"atom_type 2 {CONSTANT} relative no", CONSTANT)],
+    PACK.format("", "{}"): [
+        ("insert_every 9 insert_every once", "insert_every once"), ("insert_every once every 9", "every 9"), ("every 9 insert_every once", "insert_every once"),
+        ("insert_every once insert_every_time 0.1", "insert_every_time 0.1"), ("start 9 start 1", "start 1"), ("all_in yes all_in no", "all_in no"),
+        ("all_in no all_in yes", "all_in yes"), ("overlapcheck no overlapcheck yes", "overlapcheck yes"),
+        ("omega constant 0 0 1 omega constant 0 0 0", "omega constant 0 0 0"), ("vel constant 0 0 -1 vel constant 0 0 -2", "vel constant 0 0 -2"),
+        ("vel uniform 0 0 -1 1 2 3 vel constant 0 0 -2", "vel uniform 0 0 -2 1 2 3"), ("vel uniform 0 0 -1 1 2 3 vel gaussian 0 0 -2 4 5 6", "vel gaussian 0 0 -2 4 5 6"),
+        ("vel gaussian 0 0 -1 1 2 3 vel constant 0 0 -2 vel constant 0 0 -3", "vel gaussian 0 0 -3 1 2 3"), ("particles_in_region 7 particles_in_region 8", "particles_in_region 8")],
+    OF_RATE: [
+        ("particlerate 9 nparticles 9 nparticles 8", "particlerate 9 nparticles 8"), ("particlerate 8 particlerate 9", "particlerate 9"),
+        ("particlerate 9 nparticles 9 nparticles INF", "particlerate 9"), ("particlerate 9 nparticles INF nparticles 9", "particlerate 9"),
+        ("particlerate 9 nparticles 9 mass INF", "particlerate 9"), ("particlerate 9 mass INF mass 9", "particlerate 9")],
+    ONE + MESH.format("") + "fix i all insert/stream seed 7 distributiontemplate d particlerate 9 every 9 vel constant 0 0 1 {}\n": [
+        ("insertion_face none insertion_face cad", "insertion_face cad"), ("duration 5 duration 9 insertion_face cad", "insertion_face cad"),
+        ("duration_time 1 duration 9 insertion_face cad", "insertion_face cad"), ("duration 9 duration_time 1 insertion_face cad", "duration_time 1 insertion_face cad")],
+    MESH + WALL: [
+        ("surface_vel 1 0 0 surface_vel 0 2 0", "surface_vel 0 2 0"), ("reference_point 1 0 0 reference_point 2 0 0", "reference_point 2 0 0"),
+        ("wear finnie wear off", ""), ("element_exclusion_list read none element_exclusion_list write none", "")],
+    SERVO.replace("com 0 0 0", "{}") + WALL: [
+        ("com 1 2 3 com 0 0 0", "com 1 2 3"), ("reference_point 4 5 6 com 1 2 3", "com 1 2 3"), ("com 1 2 3 vel_max 9", "com 1 2 3")],
+    ELASTIC + BODY + WALL: [
+        ("com 9 9 9 mass 9 moi 9 9 9 0 0 0", ""), ("vel 0 0 1 vel 0 0 -1", "vel 0 0 -1"), ("angmom 1 2 3 angmom 4 5 6", "angmom 4 5 6"), ("reference_point 9 9 9", "")],
+    OF_WALL: [
+        ("mesh n_meshes 1 meshes cad meshes lid", "mesh n_meshes 1 meshes lid"), ("primitive type 1 zplane 0 mesh n_meshes 1 meshes cad", "mesh n_meshes 1 meshes cad"),
+        ("mesh n_meshes 1 meshes cad limitForce on limitForce off", "mesh n_meshes 1 meshes cad"), ("mesh n_meshes 1 meshes cad torsion on torsion off", "mesh n_meshes 1 meshes cad")],
+    "region b block 0 1 0 1 0 1\ncreate_box 1 b\n" + OF_WALL: [
+        ("mesh n_meshes 1 meshes cad primitive type 1 zplane 0", "primitive type 1 zplane 0"), ("primitive type 1 xplane 0 primitive type 1 zplane 0", "primitive type 1 zplane 0"),
+        ("primitive type 1 zplane 0 shear x 1 shear y 2", "primitive type 1 zplane 0 shear y 2")],
+    ONE_GRAIN + "set group all {}\n" + SPEED + "pair_style gran model hooke\npair_coeff * *\n": [
+        ("diameter 0.02 density 2500 diameter 0.04", "density 2500 diameter 0.04"), ("density 1000 diameter 0.02 density 2500", "diameter 0.02 density 2500"),
+        ("type 2 diameter 0.02 density 2500 type 1", "diameter 0.02 density 2500 type 1")],
+    "dump d all custom/vtk 9 d*.vtk id x\ndump_modify d {}\n": [("binary yes thresh x > 1 binary no thresh x < 2", "thresh x > 1 thresh x < 2")],
+    "fix t all check/timestep/gran 1 0.1 0.1 {}\n": [("error yes error no", "error no")],
+}
 REFUSED = {
     "a mesh that is missing": (MATERIAL + WALL.replace("meshes cad", "meshes b") + MESH.format(""), "there is no mesh b"),
     "a property that is missing": (MATERIAL.split("fix m3")[0] + ON_MESH, "needs fix property/global"),
@@ -678,6 +732,15 @@ def test_words(folder):
         (folder / name).unlink()
     help_text = subprocess.run([sys.executable, EXAMPLE / "convert.py", "--help"], text=True, capture_output=True).stdout
     fact("--help teaches", all(w in help_text for w in ("LEFT", "NOTE", "--radius", "from-liggghts.md")))
+
+
+def test_twice(folder):
+    """Of words that stand twice the one counts that counts in LIGGGHTS."""
+    for text, pairs in TWICE.items():
+        for words, counting in pairs:
+            # Of all lines but comments with the words of the line itself.
+            one, other = (re.sub(r"^# (?!LEFT|NOTE).*\n", "", convert(folder, MATERIAL + text.replace("{}", x))[1], flags=re.M) for x in (words, counting))
+            fact(f"{words} is {counting or 'nothing'}", one == other, one + other)
 
 
 # Lines that are converted, with whatever is known of what they name; NAMES, numbers and texts are not words of a command.
@@ -1188,6 +1251,21 @@ PHYSICS = {
     # The kinetic energy of a single grain, m v^2/2.
     "energy": (HERTZ, "create_atoms 1 single 0 0 0.1 units box\nset group all diameter 0.02 density 2500\nvelocity all set 2 0 0 units box\nvariable e equal ke\n"
                "thermo_style custom step ke\nrun 2\n", "${e}", [(2 * MASS - 1e-9, 2 * MASS + 1e-9)]),
+    # ... also of a script with degrees of freedom of its own, which ke of LIGGGHTS does not hang on.
+    "energy_of_degrees": (HERTZ, "create_atoms 1 single 0 0 0.1 units box\nset group all diameter 0.02 density 2500\nvelocity all set 2 0 0 units box\n"
+                          "variable e equal ke\nthermo_style custom step ke\ncompute_modify thermo_temp dynamic yes extra 3\nrun 2\n", "${e}",
+                          [(2 * MASS - 1e-9, 2 * MASS + 1e-9)]),
+    # Words that stand twice. 20 grains with 1.5 times the diameter; their speeds along x have the standard deviation 0.1: within 9 standard errors of it.
+    "insert_twice": (HERTZ, "region r block 0 0.2 0 0.2 0.05 0.25 units box\nfix p all particletemplate/sphere 15485863 density constant 100 density constant 2500 "
+                     "radius constant 0.01 radius constant 0.015\nfix d all particledistribution/discrete 32452843 1 p 1\nfix t all insert/pack seed 86028121 "
+                     "distributiontemplate d vel gaussian 0 0 9 0.1 0 0 vel constant 0 0 -1 insert_every 9 insert_every once region r particles_in_region 30 "
+                     "particles_in_region 20\nvariable m equal mass(all)\nvariable w equal vcm(all,z)\nvariable s equal 2*ke(all)/mass(all)-1\nrun 1\n", "${m} ${w} ${s}",
+                     [(67.5 * MASS - 1e-8, 67.5 * MASS + 1e-8), (-1, -1), (0.0005, 0.04)]),
+    "set_twice": (HERTZ, "create_atoms 1 single 0 0 0.1 units box\nset group all diameter 0.02 density 2500 diameter 0.04\nvariable m equal mass(all)\nrun 0\n",
+                  "${m}", [(8 * MASS - 1e-9, 8 * MASS + 1e-9)]),
+    # The later one of a mesh and a plane, which the grain does not touch.
+    "wall_twice": (HERTZ, slide(0).replace("MODEL mesh", "MODEL primitive type 1 zplane -0.05 mesh") + "thermo_style custom step f_cad[3]\nrun 2000\nvariable f equal f_cad[3]\n"
+                   "run 1\n", "${f}", [(-1.1 * 9.81 * MASS, -0.9 * 9.81 * MASS)]),
     # That of two grains in a body, and of a third one.
     "energy_of_a_body": (HERTZ, TOUCHING + "create_atoms 1 single 0.1 0.1 0.1 units box\nset group all diameter 0.02 density 2500\n"
                          "velocity all set 2 0 0 units box\ngroup a id 1 2\nfix r a rigid single\nunfix i\ngroup b id 3\nfix i b nve/sphere\n"

@@ -22,7 +22,7 @@ class Flows:
 
     def massflow(self, line):
         w = line.words
-        v = options(w[4:], FLOW_WORDS)
+        v = options(w[4:], FLOW_WORDS, (("file", "append"),))
         mesh = self.meshes.get(v["mesh"][0])
         if mesh is None:
             raise Left("massflow/mesh through a mesh that is not converted", "fix massflow/lsdcd mesh FILE")
@@ -40,8 +40,6 @@ class Flows:
             raise Left("delete_atoms where the mesh is wound against vec_side",
                        "turn its triangles over: only what passes forward is deleted")
         rows = [v[key][0] for key in ("file", "append") if key in v]
-        if len(rows) > 1:
-            raise Left("massflow/mesh with file and append", "one of both")
         count = {"once": "once", "multiple": "each"}[v.get("count", ["multiple"])[0]]
         self.put(f"fix             {w[1]} {w[2]} massflow/lsdcd mesh {mesh.file}{mesh.placement()} count {count}" +
                  " delete yes" * delete + "".join(f" file {name}" for name in rows))

@@ -145,6 +145,12 @@ def pairs(words, known, of=""):
         del words[:max(ends)]
 
 
-def options(words, known):
-    """{word: its values}, where each word counts once: the last one."""
-    return dict(pairs(words, known))
+def options(words, known, one_of=()):
+    """{word: its values} in the order of the words, where each counts once: the last one. Of a group in `one_of`, whose words set the
+    same number, the last one counts."""
+    found = {}
+    for key, values in pairs(words, known):
+        for other in next((group for group in one_of if key in group), (key,)):
+            found.pop(other, None)
+        found[key] = values
+    return found

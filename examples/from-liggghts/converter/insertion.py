@@ -7,7 +7,7 @@ import re
 
 from .errors import Left
 from .geometry import short
-from .forms import options
+from .forms import options, pairs
 from .lines import commands_in, is_yes
 
 # Whether the numbers of a distribution are shares of the mass or of the number.
@@ -139,18 +139,23 @@ class Insertion:
         form = self.style(w).split("/", 1)[1]
         if form not in self.INSERT_OF:
             raise Left(w[3], "fix insert/lsdcd mesh FILE or region ID")
-        v = options(w[4:], {**self.INSERT, **self.INSERT_OF[form]})
+        known = {**self.INSERT, **self.INSERT_OF[form]}
+        v = options(w[4:], known, (("insert_every", "every", "insert_every_time"), ("duration", "duration_time")))
+        given = list(pairs(w[4:], known))
         apart, whole, in_box = (is_yes(v, *default) for default in (
             ("overlapcheck", "yes"), ("all_in", "no"), ("check_dist_from_subdomain_border", "yes")))
         v = {k: x[0] if len(x) == 1 else x for k, x in v.items()}
-        if "duration_time" in v or v.get("duration", v.get("insert_every")) != v.get("insert_every"):
+        every = v.get("insert_every", v.get("every", v.get("insert_every_time", "once")))
+        if "duration_time" in v or v.get("duration", every) != every:
             raise Left("insert/stream with a duration shorter than insert_every, which comes in pulses",
                        "a fix insert/lsdcd and unfix for each pulse")
-        if form == "pack" and v.get("insert_every", v.get("every", v.get("insert_every_time", "once"))) != "once":
+        if form == "pack" and every != "once":
             raise Left("insert/pack that fills up again and again", "fix insert/lsdcd with massrate or numberrate")
         if ("massrate" in v or "particlerate" in v) and self.new_timestep(line):
             raise Left(f"{w[3]} with a rate, and another timestep after a run: LIGGGHTS keeps the grains of a step, not of a time",
                        "fix insert/lsdcd for each part, with the rate that you mean")
+        if any(key in ("nparticles", "mass") and value == ["INF"] for key, value in given):
+            v.update(nparticles="INF", mass="INF")    # a number beside it, before or behind, has no effect
         amounts = [f"{ours} {v[theirs]}" for theirs, ours in (
             ("massrate", "massrate"), ("particlerate", "numberrate"), ("nparticles", "number"), ("mass", "mass"),
             ("particles_in_region", "number"), ("mass_in_region", "mass")) if v.get(theirs, "INF") != "INF"]
@@ -167,7 +172,8 @@ class Insertion:
             raise Left("insertion with a spin", "set ... omega of the new grains, as grains come without a spin here")
         velocity = ""
         if "vel" in v:
-            drawn, spread = v["vel"][0], v["vel"][4:]
+            # A constant behind uniform or gaussian is another mean, and the spread stays.
+            drawn, *spread = next(([x[0], *x[4:]] for key, x in reversed(given) if key == "vel" and x[0] != "constant"), ["constant"])
             velocity = " vel " + " ".join(v["vel"][1:4])
             if spread:
                 velocity += " jitter " + "gaussian " * (drawn == "gaussian") + " ".join(spread[:1] if len(set(spread)) == 1 else spread)
@@ -196,7 +202,7 @@ class Insertion:
         self.sources.append((bounds, self.ran, "once" if form == "pack" else "on"))
         self.feeds[w[1]] = (line, len(self.sources) - 1)
         self.densities.update({f"fix {w[1]} {k}": kind[0].split()[-1] for k, kind in enumerate(kinds)})
-        self.count_energy()
+        self.count_energy(line)
         self.put(text)
         if form == "pack" and self.is_dense(line, v, kinds, bounds):
             self.note(line, "LIGGGHTS gives up on grains without a place after maxattempt, here they come later: count the grains of both")
@@ -269,13 +275,27 @@ class Insertion:
                        "fix insert/lsdcd with the number less these grains")
         return any(ran != self.ran or not self.apart(other, bounds) for other, ran, _ in self.sources)    # after a run they are anywhere
 
-    def count_energy(self, more=0):
+    def count_energy(self, line, more=0):
         """Makes ke right of a single grain, which has no degree of freedom by default, and while grains come. It does not depend on how
         many there are, while there are some; `more` makes up for those that a fix takes away. Temperatures and pressures do."""
-        if any("thermo_temp" in other.words for other in self.lines):
+        self.taken_away = max(self.taken_away, more)
+        if not self.prints(r"\b(temp|press|p[xyz]{2})\b"):
+            self.put(f"compute_modify  thermo_temp extra/dof {-self.taken_away} dynamic/dof yes")
             return
-        has_others = any(re.search(r"\b(temp|press|p[xyz]{2})\b", other.text) for other in self.lines if other.words[:1] in (["thermo_style"], ["variable"]))
-        self.put("compute_modify  thermo_temp " + f"extra/dof {-more} " * (not has_others) + "dynamic/dof yes")
+        if not any("thermo_temp" in other.words for other in self.lines):
+            self.put("compute_modify  thermo_temp dynamic/dof yes")
+        self.note_energy(line)
+
+    def prints(self, form):
+        """Whether a line of thermo_style or a variable has a text."""
+        return any(re.search(form, other.text) for other in self.lines if other.words[:1] in (["thermo_style"], ["variable"]))
+
+    def note_energy(self, line):
+        """Says that ke may not be that of LIGGGHTS, which is of all grains, whatever a temperature counts."""
+        if not self.noted_energy and self.prints(r"(?<![\w.])(ke|etotal)\b(?!\()"):
+            self.noted_energy = True
+            self.note(line, "ke is that of the grains and degrees of freedom of temp here, so 0 of a single grain, in LIGGGHTS that of all grains: "
+                      "compute ID all ke has it")
 
     def make(self, bounds):
         """Grains that are made at once. A pack that stands before them and inserts after them counts them."""

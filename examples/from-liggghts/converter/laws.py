@@ -100,9 +100,11 @@ class Model:
         """The words at the end."""
         while words:
             w, value = words.pop(0), words.pop(0) if words else None
-            if w not in self.HANDLED + self.OTHERS or value not in ("on", "off") or (value == "on" and w in self.OTHERS):
+            if w not in self.HANDLED + self.OTHERS or value not in ("on", "off"):
                 raise Left(f"the keyword {w} of {of}", "see fix_wall_lsdcd.rst and the manual of LAMMPS")
             (self.on.add if value == "on" else self.on.discard)(w)
+        for w in (x for x in self.OTHERS if x in self.on):
+            raise Left(f"the keyword {w} of {of}", "see fix_wall_lsdcd.rst and the manual of LAMMPS")
 
     @property
     def limit(self):

@@ -20,6 +20,12 @@ def is_yes(values, key, default):
     return value == "yes"
 
 
+def last_value(words, key):
+    """The word behind the last one that is `key`, which counts in LIGGGHTS; None where there is none."""
+    places = [k for k, x in enumerate(words) if x == key]
+    return words[places[-1] + 1] if places else None
+
+
 def needed_by(words):
     """Returns the fixes, computes, variables and dumps that a command needs: f_ID, c_ID, v_ID and d_ID."""
     needed = {m[0] or f"v_{m[1] or m[2]}" for m in re.findall(r"\b([fcv]_\w+)|\$\{(\w+)\}|\$([a-zA-Z])", " ".join(words))}

@@ -26,6 +26,8 @@ STRESS_WORDS = {"reference_point": VECTOR, "wear": "off|finnie", "stress": "on|o
 SERVO_WORDS = {"com": VECTOR, "axis": VECTOR, "ctrlPV": "force|torque", "target_val": "NUMBER|VARIABLE", **dict.fromkeys("vel_max kp ki kd ratio".split(), "NUMBER"), "mode": "auto"}
 BODY_WORDS = {**dict.fromkeys("com vel angmom".split(), VECTOR), **dict.fromkeys(("forceflags", "torqueflags"), "NUMBER NUMBER NUMBER"), "mass": "NUMBER",
               "moi": f"{VECTOR} {VECTOR}", "suspension": "k_t NUMBER c_t NUMBER k_r NUMBER c_r NUMBER"}
+# Of servos and bodies: words of which the first one counts. Of all others it is the last one.
+KEPT = ("com", "mass", "moi")
 FORCE, TORQUE = (1, 2, 3), (4, 5, 6)
 
 
@@ -75,8 +77,10 @@ class Mesh:
                 self.reference = v
             elif key == "wear":
                 self.wear = v[0] == "finnie"
-            elif key == "element_exclusion_list" and v[0] == "read":
-                self.excluded = v[1]
+            elif key == "element_exclusion_list":
+                self.excluded = v[1] if v[0] == "read" else None
+            elif key in values and key in KEPT:
+                continue
             else:
                 values[key] = v if len(v) > 1 else v[0]
         if self.file is None or not self.file.lower().endswith((".stl", ".obj", ".ply", ".off")):
@@ -86,9 +90,10 @@ class Mesh:
             self.leave_out(script)
         if self.style.endswith("/stress/servo"):
             self.add_servo(script, values)
-            self.reference = self.reference or list(self.com)
+            self.reference = list(self.com)    # com replaces reference_point
         elif self.style.endswith("/stress/6dof"):
             self.add_body(script, values)
+            self.reference = None
         if surface:
             self.add_surface_vel(script, surface)
         if spin:

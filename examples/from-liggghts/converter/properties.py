@@ -9,6 +9,7 @@ from .errors import CannotConvert, Left
 from .formulas import expand
 from .laws import Contact, Model
 from .forms import options
+from .lines import last_value
 
 # The same arrays in LIGGGHTS.
 PROPERTY_KINDS = {"scalar": "scalar", **dict.fromkeys(("vector", "peratomtype", "atomtype"), "vector"),
@@ -84,11 +85,11 @@ class Properties:
                 ("radius", "density"), ["constant NUMBER", "uniform NUMBER NUMBER", "gaussian NUMBER NUMBER"])})
         except Left:
             v = {}
-        size = [self.known(v[k][1], line) if v.get(k, [""])[0] == "constant" and "relative" not in v else None
+        size = [self.known(v[k][1], line) if v.get(k, [""])[0] == "constant" and v.get("relative", ["no"]) == ["no"] else None
                 for k in ("radius", "density")]
         # A word that is not known may hide the type.
-        kind = self.known(w[w.index("atom_type", 5) + 1], line) if "atom_type" in w[5:] else 1
-        return kind, *size
+        kind = last_value(w[5:], "atom_type")
+        return (1 if kind is None else self.known(kind, line)), *size
 
     def read_data(self, line):
         name = expand(line.words[1], line.scope)

@@ -8,7 +8,7 @@ from .dumps import COLUMNS, OF_PICTURES
 from .errors import Left
 from .formulas import FUNCTIONS, VARIABLE, expand
 from .forms import options, read
-from .lines import commands_in
+from .lines import commands_in, last_value
 
 UNITS = "[units box|lattice]"
 THERMO = """step|elapsed|elaplong|dt|time|cpu|tpcpu|spcpu|cpuremain|part|atoms|temp|press|pe|ke|etotal|enthalpy|vol|density|lx|ly|lz|xlo|xhi|ylo|yhi|zlo|zhi|
@@ -216,7 +216,7 @@ class Same:
             self.densities["created"] = "1"    # in both
         single = w[0] == "create_atoms" and w[2] == "single" and not line.loops and sum(x.words[:1] == w[:1] for x in self.lines) == 1
         if single or (w[0] == "read_data" and len(self.data_sizes[line]) == 1):
-            self.count_energy()
+            self.count_energy(line)
 
     def check_time(self, line):
         """Raises Left for reset_timestep where a variable hangs on the time, which is the step times the timestep behind it in LIGGGHTS; in LAMMPS the
@@ -261,6 +261,12 @@ class Same:
             text = " ".join([*w[:4], "cutoff", *w[4:]])
         if w[0] == "compute" and w[3] == "stress/atom" and w[4:5] != ["NULL"]:
             text = " ".join([*w[:4], "NULL", *w[4:]])
+        if w[:2] == ["compute_modify", "thermo_temp"] and not self.prints(r"\b(temp|press|p[xyz]{2})\b"):
+            self.put(f"# {line.text.strip()}: ke does not hang on it in LIGGGHTS")
+            self.count_energy(line)
+            return
+        if w[:2] == ["compute_modify", "thermo_temp"] or (w[0] == "thermo_modify" and last_value(w, "temp")):
+            self.note_energy(line)
         if w[0] == "compute_modify":    # newer versions of LAMMPS know these names alone
             text = " ".join(f"{x}/dof" if k > 1 and x in ("extra", "dynamic") else x for k, x in enumerate(w))
         if w[0] == "compute" and w[3].startswith("reduce") and self.rows.keys() & set(re.findall(r"\bc_(\w+)\[", text)):
@@ -271,7 +277,11 @@ class Same:
                 self.note(line, f"without {word}, which is not here")
         elif w[0] == "set":
             values = options(w[3:], SET_WORDS)
+            if sum(1 + len(v) for v in values.values()) < len(w) - 3:
+                text = " ".join(w[:3] + [x for key, v in values.items() for x in (key, *v)])    # without words that a later one replaces
             text = self.with_density(line, values, text)
+            if values.keys() & SPINS and "omega" in values:
+                raise Left("set of omega beside one of its components", "set ... omega with all three numbers")
             if values.keys() & SPINS:
                 if not values.keys() >= set(SPINS) and (any(ran != self.ran for _, ran, _ in self.sources) or self.spun):
                     raise Left("set omegax of grains that may turn already", "set ... omega with all three numbers")
@@ -317,6 +327,21 @@ class Same:
             if key == "diameter" and density is not None:
                 values["density"] = [density]
         return " ".join(w[:3] + [x for key, v in values.items() for x in (key, *v)])
+
+    def grow(self, line):
+        """fix adapt N atom diameter v_NAME [scale|reset yes|no], which keeps the density in LIGGGHTS."""
+        w = line.words
+        ends = next((k for k, x in enumerate(w) if k > 4 and x in ("scale", "reset")), len(w))
+        if last_value(w[ends:], "scale") == "yes":
+            raise Left("scale yes of fix adapt, which is a factor of the diameter of each time in LIGGGHTS, and of the first one in LAMMPS",
+                       "the diameter itself, as an equal-style variable")
+        of_atoms = [x[2:] for x in w[7:ends:3] if any(y.words[:3] == ["variable", x[2:], "atom"] for y in self.lines)]
+        if of_atoms:
+            raise Left(f"the atom-style variable {of_atoms[-1]} of fix adapt, where LAMMPS has equal-style ones",
+                       f"where all diameters grow by a factor F: variable k equal F^(1+floor(step/{w[4]})), and fix {w[1]} {w[2]} adapt {w[4]} "
+                       "atom diameter v_k scale yes mass yes; a run that begins later takes F once more in LIGGGHTS")
+        # LIGGGHTS resets no diameter at the end of a run.
+        self.pass_on(line.but(" ".join(w[:ends] + ["mass yes"])))
 
     def is_here(self, word):
         """False of an output of a fix, compute or variable that is not in the converted script."""

@@ -9,11 +9,11 @@ from .contacts import Contacts
 from .dumps import DUMP_MODIFY, MESH_DUMPS, TEXT_DUMP_WORDS, Dumps
 from .errors import CannotConvert, Left
 from .flows import Flows
-from .forms import options, read
+from .forms import pairs, read
 from .formulas import VARIABLE, expand, formula, number_of
 from .geometry import short, unit
 from .insertion import DISTRIBUTIONS, Insertion
-from .lines import ENDERS, KINDS, MAKERS, commands_in, needed_by, nested, unquoted, words_of
+from .lines import ENDERS, KINDS, MAKERS, commands_in, last_value, needed_by, nested, unquoted, words_of
 from .meshes import Mesh
 from .motions import Motions, TURNS
 from .program import Program
@@ -52,7 +52,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
             self.sizes = [(options.radius, options.density)]
         # What is known at a line, in the order of the script.
         self.out, self.left, self.left_variables = [], [], set()
-        self.noted, self.noted_dashpot, self.units = False, False, "lattice" if options.pfm else "box"
+        self.noted, self.noted_dashpot, self.noted_energy, self.units = False, False, False, "lattice" if options.pfm else "box"
         self.waiting = set()    # what lines with #: make: f_ID of fixes, and so on with c_, v_ and, of dumps, d_
         self.early, self.later = set(), {}    # meshes that are named before their wall, and its ID and place
         self.ran = 0
@@ -65,6 +65,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
         self.regions, self.box, self.box_moves, self.faces, self.pair = {}, {}, False, ["f"] * 6, None
         self.mirrored, self.texts, self.parts, self.feeds, self.helpers = {}, set(), {}, {}, {}
         self.computed, self.spun = set(), False
+        self.taken_away = 0    # degrees of freedom, by fix rigid
         self.per_atom = set()    # c_ID, f_ID of what has values of atoms
         self.rows = {}    # of computes of contacts: style, what stands for each column, its word
         self.named, self.named_flows = {}, {}    # outputs that lines have taken, of meshes and of other fixes
@@ -189,9 +190,9 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
             self.add_type(self.known(w[1], line))
         elif w[0] == "set":
             for word in (x for x in ("type", "type/fraction") if x in w[3:]):
-                self.add_type(self.known(w[w.index(word, 3) + 1], line))
+                self.add_type(self.known(last_value(w[3:], word), line))
             if any(word in w[3:] for word in ("diameter", "density", "mass")):
-                size = [self.known(w[w.index(word, 3) + 1], line) if word in w[3:] else None for word in ("diameter", "density")]
+                size = [self.known(last_value(w[3:], word), line) if word in w[3:] else None for word in ("diameter", "density")]
                 self.sizes.append(None if None in size or "mass" in w[3:] else (size[0] / 2, size[1]))
         elif w[0] in ("read_restart", "read_dump"):
             self.all_types = True
@@ -413,8 +414,8 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
             self.clear()
             self.put(line.text)
         elif w[0] == "dump_modify" and w[1] in self.texts:
-            kept = options(w[2:], TEXT_DUMP_WORDS)
-            kept = [f"{k} {' '.join(v)}" for k, v in kept.items() if k not in ("binary", "compressor")]
+            # All of them: each thresh is a condition more.
+            kept = [f"{k} {' '.join(v)}" for k, v in pairs(w[2:], TEXT_DUMP_WORDS) if k not in ("binary", "compressor")]
             self.put(f"dump_modify     {w[1]} {' '.join(kept)}" if kept else f"# {' '.join(w)}")
         elif w[0] == "unfix" and w[1] in self.moves:
             self.stop(line)
@@ -506,7 +507,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
             self.read(line, style, "check_every_time? COUNT NUMBER NUMBER [warn YES] [error YES] [vmax NUMBER]", 4)
             self.plain.add(name)
             self.note(line, "fix check/timestep/gran has no counterpart; lsdcd timestep names a timestep" +
-                      ("; LIGGGHTS stops where the timestep is too long" if ["error", "yes"] in map(list, zip(w, w[1:])) else ""))
+                      ("; LIGGGHTS stops where the timestep is too long" if last_value(w[4:], "error") == "yes" else ""))
         elif style.startswith("insert/"):
             self.insert(line)
         elif style.startswith(("particletemplate", "particledistribution")):
@@ -533,10 +534,10 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
                 raise Left(f"nve/limit {w[4]}", "nve/limit of LAMMPS has the largest distance alone")
             self.read(line, f"fix {style}", FIXES[style], 4)
             if self.grows(w):
-                self.pass_on(line.but(" ".join(w + ["mass yes"])))    # LIGGGHTS keeps the density
+                self.grow(line)
                 return
             if style == "rigid":
-                self.count_energy(10**9)    # which takes six of each grain, more than it has
+                self.count_energy(line, 10**9)    # which takes six of each grain, more than it has
             if style == "dt/reset":
                 self.timestep = None
             if style == "deform":

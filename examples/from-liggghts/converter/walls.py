@@ -22,7 +22,7 @@ class Wall:
         w, n, mesh = self.model.rest, 0, False
         while w:
             if w[0] == "mesh":
-                mesh = w.pop(0)
+                mesh, self.shape = w.pop(0), None    # of a mesh and a primitive the last one counts
             elif w[0] == "n_meshes":
                 n = int(script.number(w[1], line))
                 del w[:2]
@@ -34,7 +34,7 @@ class Wall:
             elif w[0] == "primitive":
                 if w[1] != "type":
                     raise ValueError("primitive without type")
-                self.type, self.shape = int(script.number(w[2], line)), w[3]
+                self.type, self.shape, self.ids, mesh = int(script.number(w[2], line)), w[3], [], False
                 del w[:4]
                 n_values = 1 if self.shape.endswith("plane") else 3
                 self.place = [w.pop(0) for _ in range(n_values)]
