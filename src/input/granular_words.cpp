@@ -75,6 +75,14 @@ Real read_number(Tokens &w, const Parameter &p, bool may_be_null)
   return value;
 }
 
+// Of a wall and of two grains.
+std::string sub_models_syntax()
+{
+  return "granular " + choices_of(Family::normal) +
+         " ... tangential MODEL ... [damping MODEL] [rolling MODEL ...] [twisting MODEL ...] "
+         "[heat MODEL ...] [cohesion MODEL ...] [limit_damping]";
+}
+
 // Which words an error of finish_granular() is about.
 void finish(Tokens &w, LawDraft &d)
 {
@@ -85,7 +93,7 @@ void finish(Tokens &w, LawDraft &d)
       w.set_context(std::string("granular damping ") + d.damping_name,
                     "granular hooke|hertz kn e, or hertz/material E e nu, with 0 < e <= 1");
     else
-      w.set_context("granular " + e.field, granular_syntax());
+      w.set_context("granular " + e.field, sub_models_syntax());
     w.fail(e.what());
   }
 }
@@ -127,9 +135,7 @@ std::vector<std::string> granular_families()
 
 std::string granular_syntax()
 {
-  return "granular " + choices_of(Family::normal) +
-         " ... tangential MODEL ... [damping MODEL] [rolling MODEL ...] [twisting MODEL ...] "
-         "[heat MODEL ...] [cohesion MODEL ...] [limit_damping] mesh FILE [keywords]";
+  return sub_models_syntax() + " mesh FILE [keywords]";
 }
 
 std::string granular_help()

@@ -90,8 +90,8 @@ std::vector<std::string> names_in(const std::vector<std::string> &words, const W
   return names;
 }
 
-// A word where none is expected that is no misspelt keyword may be the wall's material.
-void refuse_second_name(const Tokens &w)
+// A word where none is expected that is no misspelt keyword may be the wall's material, or that of the other grain.
+void refuse_second_name(const Tokens &w, const std::string &other)
 {
   if (w.done() || is_behind(w.peek())) return;
   for (const char *const word : {"types", "on", "with", "material"})
@@ -99,8 +99,8 @@ void refuse_second_name(const Tokens &w)
   std::vector<std::string> names;
   for (const Keyword &row : keywords()) names.push_back(row.name);
   if (is_like(w.peek(), nearest(w.peek(), names))) return;
-  w.fail("'" + w.peek() + "' is not a keyword: if it is the wall's material, write 'on " +
-         w.peek() + "'");
+  w.fail("'" + w.peek() + "' is not a keyword: if it is " + other + ", write 'on " + w.peek() +
+         "'");
 }
 
 }    // namespace
@@ -144,9 +144,10 @@ std::vector<Override> read_overrides(Tokens &w, const std::vector<std::string> &
   return overrides;
 }
 
-void read_wall_materials(Tokens &w, const std::vector<std::string> &words, WallMaterials &m)
+void read_wall_materials(Tokens &w, const std::vector<std::string> &words, WallMaterials &m,
+                         const char *syntax, const std::string &other)
 {
-  w.set_context("material", kMaterialSyntax);
+  w.set_context("material", syntax);
   const std::string style = w.take();
   if (style != "granular") m.style = style;
   if (w.peek() != "material") m.pair.normal = w.take();
@@ -158,7 +159,7 @@ void read_wall_materials(Tokens &w, const std::vector<std::string> &words, WallM
   m.has_wall = !w.done() && w.peek() == "on";
   if (m.has_wall) {
     w.take();
-    m.pair.wall = take_name(w, "after 'on' the wall's material");
+    m.pair.wall = take_name(w, "after 'on' " + other);
   }
   m.names = names_in(words, m);
   const bool has_overrides = !w.done() && w.peek() == "with";
@@ -166,10 +167,10 @@ void read_wall_materials(Tokens &w, const std::vector<std::string> &words, WallM
     w.take();
     m.pair.overrides = read_overrides(w, m.names, "with");
   } else if (!m.has_wall && m.types.empty()) {
-    refuse_second_name(w);
+    refuse_second_name(w, other);
   }
   read_sub_models_of_materials(w, m.pair);
-  w.set_context("material", kMaterialSyntax);
+  w.set_context("material", syntax);
   for (const char *const word : {"types", "on", "with"})
     if (!w.done() && w.peek() == word)
       w.fail("'" + w.peek() +

@@ -46,9 +46,11 @@ struct WallMaterials {
 
 // Do the words of a wall, from its style on, begin with materials in place of numbers?
 bool has_material(const std::vector<std::string> &words);
-// Reads the style, `material` and what follows up to `mesh` or another keyword. `words`: all of the wall.
-void read_wall_materials(Tokens &w, const std::vector<std::string> &words,
-                         WallMaterials &materials);
+// Reads the style, `material` and what follows up to `mesh` or another keyword. `words`: all of the wall, or of two grains, with
+// the syntax that errors show. `other`: whose material stands behind `on`, in errors.
+void read_wall_materials(Tokens &w, const std::vector<std::string> &words, WallMaterials &materials,
+                         const char *syntax = kMaterialSyntax,
+                         const std::string &other = "the wall's material");
 // Reads NAME [with ...] after the word material of mesh number `mesh`.
 void read_material_of_mesh(Tokens &w, std::size_t mesh, const std::string &file,
                            WallMaterials &materials);

@@ -23,6 +23,12 @@ const char *const kSyntax =
     "J law STYLE numbers "
     "[cutoff C], or pair_coeff I J law material FILE A [on B] ... [cutoff C]";
 
+const char *const kMaterialsSyntax =
+    "pair_coeff I J law [granular] [hertz/material|jkr|dmt] material FILE A [on B] [with "
+    "[MATERIAL] KEY VALUE ...] [sub-models, NULL for a number of the file] [cutoff C]";
+const MaterialWords kPairWords = {kScriptWords.on, kScriptWords.with, kMaterialsSyntax,
+                                  kScriptWords.as_given};
+
 // Words of LAMMPS's pair_style granular that this one does not serve, and why.
 struct Refused {
   const char *word, *why;
@@ -155,11 +161,11 @@ std::vector<std::string> read_pair_materials(const std::vector<std::string> &wor
   if (of_wall[0] == "material") of_wall.insert(of_wall.begin(), "granular");
   Tokens w(of_wall);
   WallMaterials materials;
-  read_wall_materials(w, of_wall, materials);
-  w.set_context("pair_coeff ... material", kSyntax);
+  read_wall_materials(w, of_wall, materials, kMaterialsSyntax, "the material of the other grain");
+  w.set_context("pair_coeff ... material", kMaterialsSyntax);
   if (!materials.types.empty()) w.fail("the types are those before 'law': leave out 'types'");
   if (!w.done()) w.fail("'" + w.peek() + "' is not expected");
-  const MaterialLaw made = law_of_materials(materials.pair, units, kScriptWords);
+  const MaterialLaw made = law_of_materials(materials.pair, units, kPairWords);
   read = {made.report, made.files};
   std::istringstream text(made.name);
   std::vector<std::string> all = {"law"};

@@ -84,6 +84,7 @@ std::string answer_to(const std::string &word, bool granular)
       {"material", "it goes with granular material FILE PARTICLE, after mesh FILE"},
       {"model", kNumbers},
       {"file", "the keyword is mesh FILE"},
+      {"limitForce", "the word is limit_damping, which comes before mesh"},
       {"rolling_friction", "the keyword is rolling cdt MU, epsd2 MU, epsd MU damping"},
   };
   for (const auto &row : foreign)

@@ -6,6 +6,7 @@
 #include "lammps/compute_collide_lsdcd.h"
 
 #include "base/byte_order_mark.h"
+#include "base/file_kind.h"
 #include "base/input_error.h"
 #include "base/input_words.h"
 
@@ -79,8 +80,11 @@ std::vector<Vec3> ComputeCollideLsdcd::read_points() const
   std::vector<Vec3> all;
   lsdcd::MpiHost mpi(world);
   lsdcd::run_collectively(mpi, mpi.is_first(), [&] {
+    const std::string why = lsdcd::why_no_file(name);
     std::ifstream file(name);
-    if (!file) throw InputError("cannot read file " + name + ": give x y z of an atom a line");
+    if (!why.empty() || !file)
+      throw InputError("cannot read file " + name + (why.empty() ? "" : ", " + why) +
+                       ": give x y z of an atom a line");
     std::string line;
     for (int number = 1; std::getline(file, line); number++) {
       if (number == 1) lsdcd::drop_byte_order_mark(line);

@@ -119,7 +119,9 @@ FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
   const std::string shape = lsdcd::shape_of_atoms(*atom);
   if (!shape.empty())
     fatal("the atom style has " + shape +
-          ", and grains would have no shape: use atom_style sphere without them");
+          ", and grains would have no shape: use atom_style sphere without them" +
+          (atom->ellipsoid_flag ? "; ellipsoids come by create_atoms, then set shape and density"
+                                : ""));
   if (domain->dimension == 2)
     fatal("the simulation has two dimensions: there is no insertion there");
   run_core([&] {

@@ -642,9 +642,11 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
   const int n = comm->me == 0 ? picture.draw(*wall, kinds, rows) : 0;
   // LAMMPS does not say which diameter the script gives.
   if (comm->me == 0 && first && !spec().brief && picture.spec.draw != lsdcd::Draw::faces)
-    host.log("dump image draws the mesh as " + std::to_string(n) +
-             " lines; if you do not see them, their diameter is 0: write fix " + std::string(id) +
-             " type DIAMETER 0");
+    host.log(
+        "dump image draws the mesh as " + std::to_string(n) +
+        " lines; if you do not see them, or they hide all else, their diameter is 0, or far too "
+        "large: write fix " +
+        std::string(id) + " type DIAMETER 0, with DIAMETER in units of length");
   return n;
 }
 

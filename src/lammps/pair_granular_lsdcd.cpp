@@ -138,12 +138,14 @@ void PairGranularLsdcd::coeff(int narg, char **arg)
   utils::bounds(FLERR, arg[0], 1, n_types, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, n_types, jlo, jhi, error);
   std::vector<std::string> words(arg + 2, arg + narg);
-  if (lsdcd::has_pair_materials(words)) words = words_of_materials(words);
+  const bool by_material = lsdcd::has_pair_materials(words);
+  if (by_material) words = words_of_materials(words);
   lsdcd::PairCoeff coeff = lsdcd::read_pair_coeff(words);
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
     for (int j = std::max(jlo, i); j <= jhi; j++) {
       given[{i, j}] = coeff;
+      of_material[{i, j}] = by_material;
       setflag[i][j] = 1;
       count++;
     }
@@ -443,6 +445,9 @@ void PairGranularLsdcd::tell_laws()
       same = same && words(i, j) == words(1, 1);
       text += "\n  types " + std::to_string(i) + " " + std::to_string(j) + ": " + words(i, j) +
               (given.count({i, j}) ? "" : " (mixed)");
+      if (!given.count({i, j}) && of_material[{i, i}] && of_material[{j, j}])
+        text += ", geometric means: what a file says of both materials comes by pair_coeff " +
+                std::to_string(i) + " " + std::to_string(j) + " law material FILE A on B";
     }
   if (same) text = "\n  all types: " + words(1, 1);
   const int width = kept_width();

@@ -80,6 +80,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
 
   double cutoff = -1;
   std::map<std::pair<int, int>, lsdcd::PairCoeff> given;    // i <= j
+  std::map<std::pair<int, int>, bool> of_material;          // whether its numbers are of a file
   std::set<std::string> material_files;                     // that the first process has read
   std::vector<lsdcd::PairCoeff> coeffs;                     // of each law
   std::vector<lsdcd::PairLaw> laws;                         // the same, compiled

@@ -78,7 +78,8 @@ void finish_granular(LawDraft &d)
   const bool adhesive = law.is_adhesive();
   const std::string normal = "'" + std::string(d.normal_name) + "'";
   if (law.limit_damping && adhesive)
-    throw LawError("limit_damping", "the adhesive sub-model " + normal + " must be able to pull");
+    throw LawError("limit_damping", "the adhesive sub-model " + normal +
+                                        " must be able to pull: leave limit_damping out");
   if (law.rolling.model == RollingModel::epsd2 && !law.has_spring())
     throw LawError("rolling", "epsd2 has the stiffness of the tangential sub-model: take one with "
                               "a history, or epsd");

@@ -3,6 +3,7 @@
 
 #include "material/material_file.h"
 
+#include "base/file_kind.h"
 #include "base/input_error.h"
 #include "base/shared_files.h"
 
@@ -36,6 +37,9 @@ std::string find_material_file(const std::string &file)
 {
   std::error_code failed;
   if (fs::is_regular_file(file, failed)) return file;
+  if (fs::exists(file, failed) && !fs::is_directory(file, failed))
+    throw InputError("cannot read the material file '" + file + "': " + why_no_file(file) +
+                     "; give the path of a file of text");
   std::string looked = "as given";
   if (fs::path(file).is_relative()) {
     for (const char *variable : {"LSDCD_POTENTIALS", "LAMMPS_POTENTIALS"}) {

@@ -4,6 +4,7 @@
 #include "material/material_file.h"
 
 #include "base/byte_order_mark.h"
+#include "base/file_kind.h"
 #include "base/input_error.h"
 #include "base/input_words.h"
 
@@ -71,7 +72,8 @@ class Reader {
         count(tokens, 2, "include FILE");
         if (depth == kDeepest) fail("more than 16 files include one another");
         const std::string other = beside(path, tokens[1]);
-        if (!std::ifstream(other)) fail("the included file '" + other + "' cannot be read");
+        const std::string why = why_no_file(other);
+        if (!why.empty()) fail("the included file '" + other + "' cannot be read: " + why);
         read(other, depth + 1);
         section = nullptr;
       } else if (tokens[0] == "material") {

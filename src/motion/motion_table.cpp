@@ -4,13 +4,13 @@
 #include "motion/motion_table.h"
 
 #include "base/byte_order_mark.h"
+#include "base/file_kind.h"
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "motion/cubic_spline.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <utility>
 
@@ -331,9 +331,10 @@ bool MotionTable::keeps(const Vec3 &direction, Real rounding) const
 
 MotionTable read_motion_table(const std::string &file, const TableOptions &options)
 {
-  std::error_code failed;
-  if (!std::filesystem::is_regular_file(file, failed))    // a device may have no end
-    throw InputError("cannot read the table '" + file + "' of a motion: there is no such file");
+  const std::string why = why_no_file(file);
+  if (!why.empty())
+    throw InputError("cannot read the table '" + file + "' of a motion: " + why +
+                     (why == "there is no such file" ? "" : "; give the path of a file of text"));
   std::ifstream in(file);
   if (!in) throw InputError("cannot read the table '" + file + "' of a motion");
   TableRows rows;

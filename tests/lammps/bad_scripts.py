@@ -88,6 +88,9 @@ TABLES = [
          "Fix wall wall/lsdcd", "there is no variable 'u', which the wall reads"),
         ("precision_gone", "floor.stl precision mixed",
          "Fix wall wall/lsdcd", "precision", "all steps compute in double", "delete precision and its value"),
+        ("motion_table_is_device", "floor.stl motion table /dev/zero",
+         "cannot read the table '/dev/zero' of a motion: it is a device; give the path of a file of text"),
+        ("motion_table_is_directory", "floor.stl motion table .", "cannot read the table '.' of a motion: it is a directory"),
         ("motion_table_missing", "floor.stl motion table no/such/table",
          "Fix wall wall/lsdcd", "cannot read the table 'no/such/table' of a motion"),
         ("motion_table_no_table", "floor.stl motion table floor.stl",
@@ -147,6 +150,10 @@ TABLES = [
 
     # fix wall/lsdcd: the words after its style. Then fix_modify.
     (WALL + "fix             wall all wall/lsdcd {}\n" + RUN, [
+        ("adhesion_limited", "granular jkr 1e5 0.7 0.3 0.3 tangential mindlin NULL 0.6 0.4 limit_damping mesh floor.stl",
+         "in 'granular limit_damping', the adhesive sub-model 'jkr' must be able to pull: leave limit_damping out"),
+        ("limit_force", "hooke 1e4 NULL 5 NULL 0.5 1 limitForce on mesh floor.stl",
+         "'limitForce' is not a keyword here: the word is limit_damping, which comes before mesh"),
         ("granular_heat_without",
          "granular hertz 1e5 3 tangential linear_nohistory 0 0 heat area 1 mesh floor.stl temperature 300",
          "the sub-model heat needs a " + ("LAMMPS with fix heat/flow" if lmp.version() < 20230802 else "temperature and a heat flow per atom")),
@@ -162,6 +169,10 @@ TABLES = [
          "tangential mindlin NULL 1 0.5", "mesh 'floor.stl' has 'material steel' and 'law', which both set its contact numbers: leave one out"),
         ("material_in_law", "granular material glass.lsdcd glass mesh floor.stl law types 2 granular material glass.lsdcd steel",
          "in 'law' of mesh 'floor.stl', numbers are expected, not a material", "'types I NAME'"),
+        ("material_is_device", "granular material /dev/zero glass",
+         "cannot read the material file '/dev/zero': it is a device; give the path of a file of text"),
+        ("material_includes_device", "granular material endless.lsdcd glass",
+         "endless.lsdcd line 2: the included file '/dev/zero' cannot be read: it is a device"),
         ("material_missing_file", "granular material glas.lsdcd glass",
          "'glas.lsdcd'", "LSDCD_POTENTIALS", "glass.lsdcd"),
         ("material_types_of_no_type", "granular material glass.lsdcd glass types 5 glass",
@@ -241,14 +252,16 @@ TABLES = [
 
     (changed(NO_RADIUS, ("atom_style      atomic", "atom_style      {}"), ("mass            1 1.0\nfix             move all nve\n", "")) +
      "fix             in all insert/lsdcd region box diam one 0.2 dens 1 number 5\n" + RUN, [
-        ("insert_shapes", "hybrid sphere ellipsoid", "Fix in insert/lsdcd: the atom style has ellipsoids, and grains would have no shape"),
+        ("insert_shapes", "hybrid sphere ellipsoid", "Fix in insert/lsdcd: the atom style has ellipsoids, and grains would have no shape",
+         "ellipsoids come by create_atoms, then set shape and density"),
     ]),
 
     # compute lsdcd/collide
     (body(FOUR_ATOMS) + "compute         c all lsdcd/collide {}\n" + RUN, [
         ("collide_atoms_differ", "wall mesh floor.stl atoms unit.txt", "is not a rigid copy of the atoms of file"),
         ("collide_atoms_file", "wall mesh floor.stl atoms floor.stl", "floor.stl: line 1 has 'solid'", "x y z"),
-        ("collide_atoms_missing", "wall mesh floor.stl atoms nothere.txt", "nothere.txt"),
+        ("collide_atoms_missing", "wall mesh floor.stl atoms nothere.txt", "cannot read file nothere.txt, there is no such file"),
+        ("collide_atoms_are_endless", "wall mesh floor.stl atoms /dev/zero", "cannot read file /dev/zero, it is a device: give x y z of an atom a line"),
         ("collide_atoms_number", "wall mesh floor.stl atoms points.txt", "points.txt has 3 atoms", "has 4"),
         ("collide_fix_is_gone", "wall mesh floor.stl\n"
          "unfix           wall\n"

@@ -55,6 +55,7 @@ def test_one_error(folder):
     for name in ("floor.stl", "lid.stl"):
         (folder / name).write_bytes(floor)
     (folder / "bad.lsdcd").write_text("units si\nmaterial glass\n  youngs_modulus soft Pa\n")
+    (folder / "endless.lsdcd").write_text("units si\ninclude /dev/zero\n")
     (folder / "points.txt").write_text("0 0 0\n1 0 0\n0 1 0\n")
     (folder / "unit.txt").write_text("0 0 0\n1 0 0\n0 1 0\n\n0 0 1\n")
     (folder / "truncated.stl").write_bytes(floor[:len(floor) // 2])

@@ -284,6 +284,11 @@ LEFT = {
     "a word of the model in another place": (
         MESH.format("") + WALL.replace("hertz tangential history", "hertz cohesion sjkr tangential history"),
         "the keyword tangential of wall/gran"),
+    "cohesion behind rolling friction": (
+        MESH.format("") + WALL.replace("history", "history rolling_friction cdt cohesion sjkr"),
+        "the keyword cohesion of wall/gran, which LIGGGHTS refuses at this place"),
+    "a setting before the words of the wall": (
+        MESH.format("") + WALL.replace("history", "history limitForce on"), "the keyword mesh of wall/gran, which LIGGGHTS refuses at this place"),
     "a setting that is not known": (MESH.format("") + WALL.replace("\n", " torsionTorque on\n"), "the keyword torsionTorque"),
     "a second dump of a mesh": (ON_MESH + "dump c all mesh/stl 30 c*.stl\ndump d all mesh/stl 300 dump*.stl cad\n", "a second dump of a mesh"),
     "a dump of a mesh that is in no wall": (MESH.format("") + "dump d all mesh/stl 300 dump*.stl cad\n", "the dump of cad"),

@@ -537,7 +537,10 @@ dump_modify p format float %.17g"""), folder)
 def test_refusals(folder):
     for name, coeff, says in (("mdr", "* * mdr 1e4 0.3 1 1 0.5 0.5 tangential linear_nohistory 1 1", "suffix off"),
                               ("no law", "* *", "two atom types and a law"),
-                              ("bad sub-model", "* * hooke 1 1 tangential mindlyn 1 1 1", "'mindlyn' is not a sub-model")):
+                              ("bad sub-model", "* * hooke 1 1 tangential mindlyn 1 1 1", "'mindlyn' is not a sub-model"),
+                              ("limited adhesion, with the syntax of two grains", "* * jkr 1e5 0.7 0.3 0.3 tangential mindlin NULL 0.6 0.4 limit_damping",
+                               "leave limit_damping out. Syntax: granular hooke|hertz|hertz/material|dmt|jkr ... tangential MODEL ... [damping MODEL] [rolling MODEL ...] "
+                               "[twisting MODEL ...] [heat MODEL ...] [cohesion MODEL ...] [limit_damping] (")):
         lmp.refused(name, script(ours(coeff)), folder, says)
     exact = "* * hooke 1e4 {} tangential linear_nohistory 0 0 damping coeff_restitution"
     lmp.refused("a restitution in metal", script(ours(exact.format(0.5)), units="metal"), folder, "in the law of types 1 and 1", "returns the restitution e",
@@ -564,6 +567,21 @@ pair soft soft
     told = [line.split(": ", 1)[1] for line in text.split("\n") if line.startswith("  types 1 1: ")]
     fact("the log has the law", told and told[0].startswith("granular hertz/material "), str(told))
     at_most("material", lmp.largest_difference(lmp.read_dump(folder / "material"), lmp.read_dump(folder / "numbers")), 1e-10)
+    (folder / "two.lsdcd").write_text("units si\n" + "".join(
+        f"material {name}\n  youngs_modulus {e} Pa\n  poissons_ratio 0.3 1\n" for name, e in (("soft", 1e4), ("hard", 1e5))) + "".join(
+        f"pair {pair}\n  restitution {e} 1\n  sliding_friction 0.4 1\n" for pair, e in (("soft soft", 0.7), ("hard hard", 0.9), ("soft hard", 0.5))))
+    two = [f"{i} {i} law material two.lsdcd {name}" for i, name in ((1, "soft"), (2, "hard"))]
+    for more in ([], ["1 2 law material two.lsdcd soft on hard"]):
+        text = lmp.run_well(script(ours(*two, *more), steps=0, data="two.data", units="si"), folder)
+        fact(f"{'no ' * bool(more)}types are mixed of two materials", ("a file says of both materials comes by pair_coeff 1 2 law material FILE A on B" in text) == (not more),
+             text[-800:])
+    syntax = (". Syntax: pair_coeff I J law [granular] [hertz/material|jkr|dmt] material FILE A [on B] [with [MATERIAL] KEY VALUE ...] [sub-models, NULL for a number "
+              "of the file] [cutoff C]")
+    for name, words, says in (("file", "", "the file name is missing"), ("second material", " mine.lsdcd soft hard", "'hard' is not a keyword: if it is the material of the "
+                               "other grain, write 'on hard'"), ("other", " mine.lsdcd soft on", "after 'on' the material of the other grain is missing"),
+                              ("word behind", " mine.lsdcd soft damping tsuji more", "'more' is not expected"),
+                              ("override", " mine.lsdcd soft with restitution 2", "restitution")):
+        lmp.refused(f"{name}: the syntax of two grains", script(ours(f"* * law material{words}"), units="si"), folder, says + syntax * (name != "override"))
 
 
 def test_timestep(folder):

@@ -100,6 +100,9 @@ class Model:
         """The words at the end."""
         while words:
             w, value = words.pop(0), words.pop(0) if words else None
+            if w in (*self.ORDER, "mesh", "primitive", "n_meshes", "meshes", "shear"):
+                raise Left(f"the keyword {w} of {of}, which LIGGGHTS refuses at this place", "its order: " + ", ".join(self.ORDER) +
+                           (", the words of the wall" if of == "wall/gran" else "") + ", settings as limitForce on")
             if w not in self.HANDLED + self.OTHERS or value not in ("on", "off"):
                 raise Left(f"the keyword {w} of {of}", "see fix_wall_lsdcd.rst and the manual of LAMMPS")
             (self.on.add if value == "on" else self.on.discard)(w)
