@@ -72,9 +72,11 @@ PairGranularLsdcd::PairGranularLsdcd(LAMMPS *lmp) :
   modify->add_fix(dummy_id + " all DUMMY");
 }
 
+// The commands unfix and 'plugin clear' may have deleted the fix.
 PairGranularLsdcd::~PairGranularLsdcd()
 {
-  modify->delete_fix(springs ? springs_id : dummy_id);
+  for (const std::string &id : {springs_id, dummy_id})
+    if (lsdcd::host_fix(*modify, id)) modify->delete_fix(id);
   delete[] svector;
   if (!allocated) return;
   memory->destroy(setflag);

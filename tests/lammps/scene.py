@@ -54,6 +54,16 @@ velocity        all set NULL NULL -2.0 sum yes
 """
 
 
+# Pairs that keep springs, and what takes these away before LAMMPS deletes the pair style.
+SPRINGS_OF_PAIRS = CREATE + """\
+pair_style      granular/lsdcd
+pair_coeff      * * hooke 1e4 0 tangential linear_history 3e3 0 0.5
+fix             1 all nve/sphere
+run             5
+"""
+WITHOUT_SPRINGS = ("plugin clear", "plugin unload fix SPRINGS/LSDCD\nplugin unload pair granular/lsdcd", "unfix SPRINGS_LSDCD_0\npair_style none")
+
+
 SIDES = (("sides", "xplane", -6, 6), ("sides2", "yplane", -6, 6), ("lid", "zplane", -1.5, 8))
 
 

@@ -42,6 +42,9 @@ def test_launcher(folder):
     fact("unload deletes the fix in use", "Unloading fix style wall/lsdcd" in text)
     text = lmp.run_well("plugin clear\nplugin load lsdcdplugin.so\n" + SMALL, folder)
     fact("clear, then load by name", "Loading plugin: fix wall/lsdcd" in text)
+    for gone in scene.WITHOUT_SPRINGS:
+        text = lmp.run_well(scene.SPRINGS_OF_PAIRS + gone + "\nprint 'still here'\n", folder)
+        fact(f"{gone.splitlines()[0]} after a run with springs", "\nstill here" in text, text[-400:])
     done = lmp.run("plugin frobnicate\n\n", folder)
     fact("a wrong word shows the syntax",
          done.returncode != 0 and "unload STYLE NAME" in done.stdout)

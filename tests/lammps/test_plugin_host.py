@@ -53,6 +53,9 @@ def test_plugin_host(folder):
     # Newer hosts keep their plugins through clear.
     came = text.count("Loading plugin: fix wall/lsdcd") + text.count("Restoring plugin: fix wall/lsdcd")
     fact("load, clear, load, unload", came == 2 and "loaded plugins: 0" in text)
+    for gone in scene.WITHOUT_SPRINGS:
+        text = lmp.run_well(f"plugin load {PLUGIN}\n" + scene.SPRINGS_OF_PAIRS + gone + f"\nprint 'still here'\nplugin load {PLUGIN}\n", folder)
+        fact(f"{gone.splitlines()[0]} after a run with springs", "\nstill here" in text, text[-400:])
     # The second time the file is found by a path from another folder, and is in memory already.
     own = folder / "own"
     own.mkdir()
