@@ -86,6 +86,19 @@ LSDCD_FN Vec3 old_direction(const Springs &old, int k)
   return old[k].normal;
 }
 
+// Does none of these contacts go on with old spring k, whose direction was `was`? One does if it is on its feature, or if it
+// carries it on: it lies in its direction, where the contact that asks does not (`carries`).
+template <class Set, class Direction, class Springs>
+LSDCD_FN bool is_left_by(const Set &set, bool carries, const Direction &was, const Springs &old,
+                         int k)
+{
+  for (int j = 0; j < set.n; j++)
+    if ((is_own(old, k) && set.feature[j] == old[k].feature) ||
+        (!carries && dot(direction_of(set, j), was) > kSameDirection))
+      return false;
+  return true;
+}
+
 // Was the contact of old spring k left, as contact i sees it? It was not if its feature is still in contact, or if
 // another contact carries it on: one in its direction, where contact i is not. There the sphere crossed a line that
 // cuts a face or an edge in two, and without that cut it would have left nothing.
@@ -93,12 +106,7 @@ template <class Set, class Springs>
 LSDCD_FN bool is_left(const Set &set, int i, const Springs &old, int k)
 {
   const auto &was = old_direction(old, k);
-  const bool carries = dot(direction_of(set, i), was) > kSameDirection;
-  for (int j = 0; j < set.n; j++)
-    if (set.feature[j] == old[k].feature ||
-        (!carries && dot(direction_of(set, j), was) > kSameDirection))
-      return false;
-  return true;
+  return is_left_by(set, dot(direction_of(set, i), was) > kSameDirection, was, old, k);
 }
 
 // As transport(), also where a feature may have turned its normal round since, as by nodes that go far in one step: nothing is

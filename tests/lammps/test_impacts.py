@@ -94,6 +94,121 @@ def test_body(folder):
     at_most("energy", abs(b["energy"] - 0.375), 1e-12)
 
 
+# ---- beside another contact --------------------------------------------------------------
+
+# From the line of a fold to where a face ends.
+LONG = 4
+
+
+def side(way):
+    """A face from the line x = z = 0 along `way` in x and z."""
+    x, z = LONG * way[0], LONG * way[1]
+    face = stl.quad((0, -2, 0), (x, -2, z), (x, 2, z), (0, 2, 0))
+    return face if x > 0 else [triangle[::-1] for triangle in face]
+
+
+def fold(folder, *ways):
+    """Faces along these ways: all in fold.stl, and each in a mesh of its own. Returns the words of both walls."""
+    faces = [side(way) for way in ways]
+    stl.write(folder / "fold.stl", sum(faces, []))
+    for k, face in enumerate(faces):
+        stl.write(folder / f"side{k}.stl", face)
+    return "fold.stl", " mesh ".join(f"side{k}.stl" for k in range(len(faces)))
+
+
+BOXED = SPHERE.replace(lmp.head("-3 3 -3 3 -1 5"), lmp.head("-5 5 -3 3 -3 5"))
+assert BOXED != SPHERE
+
+
+def struck(folder, law, mesh, least, run, dt=1e-3, words="", script=BOXED, **of):
+    """Number and energy of all impacts."""
+    script = script.replace("mesh floor.stl energy", f"mesh {mesh} impacts {least} {words}")
+    return lmp.read_thermo(lmp.run_well(script.format(law=law, dt=repr(dt), columns=f"{COUNT} {ENERGY}", run=run, **of), folder))[-1][3:5]
+
+
+def slides(folder, law, mesh, angle, z=0.4999, words=""):
+    """The same of a ball that slides at 1 along a floor, at this height, to a wall at this angle from it."""
+    # Where it touches the wall: the corner rule hides that up to the depth of the floor times the cosine.
+    c, s = math.cos(angle), math.sin(angle)
+    x = ((0.5 if c > 0 else z) * c - 0.5) / s - 0.0403
+    return struck(folder, law, mesh, 1e-4, "run 60", words=words, x=f"{x!r} 0.1 {z}", v="0 0 0", move=HELD.format(v="1 0 0"))
+
+
+def test_wall_beside_a_floor(folder):
+    """A ball that slides on a floor at 1 strikes a wall at any angle from it: one impact of the speed sin(angle), whether both are one mesh or two,
+    how deep it lies on the floor, of any law, and with books of energy."""
+    for degrees in (0.1, 1, 10, 30, 60, 80, 90 - 1e-7, 90, 90 + 1e-7, 100, 120):
+        a = math.radians(degrees)
+        meshes = fold(folder, (-1, 0), (math.cos(a), math.sin(a)))
+        cases = [(LAWS[0], mesh, z, "") for mesh in meshes for z in (0.4999, 0.45)]
+        if degrees == 60:
+            cases += [(law, meshes[0], 0.4999, words) for law in LAWS[1:] for words in ("", "energy")]
+        for law, mesh, z, words in cases:
+            found = slides(folder, law, mesh, a, z, words)
+            name = f"{degrees}, {law}, {mesh}, z {z} {words}"
+            fact(f"{name}: one impact", found[0] == 1, found)
+            # The normal is rounded, by less than 1e-15 of corners up to 4 over an angle of 1.7e-3.
+            at_most(f"{name}: energy", abs(found[1] / (0.5 * math.sin(a) ** 2) - 1), 1e-11)
+
+
+def test_drop_into_a_fold(folder):
+    """A ball that falls at 1 into a fold whose sides are a apart strikes one with c = cos(a/2), and the other one with what is left, which is 2 c sin(a/2)^2:
+    on its line, and beside it, where it comes to the other side later. At a right angle it has half of its energy with each."""
+    steps, dt = 20, 1e-3
+    for degrees in (0.1, 1, 10, 30, 60, 90):
+        a = math.radians(degrees)
+        c, s = math.cos(a / 2), math.sin(a / 2)
+        meshes = fold(folder, (-c, s), (c, s))
+        second = 2 * c * s ** 2
+        for beside in (0, steps):
+            # It slides along a side at s. The corner rule has it touch the other one where it is on the line.
+            along = 0.5 * s / c + beside * dt * s
+            x, z = along * c - 0.5 * s, along * s + 0.5 * c + 0.0103
+            for mesh in meshes:
+                for least in (1e-4, 0.2):
+                    found = struck(folder, "hooke 100 NULL 0 NULL 0 0", mesh, least, "run 60", dt, x=f"{x!r} 0.1 {z!r}", v="0 0 -1",
+                                   move="fix move all nve/sphere")
+                    of_both = [speed for speed in (c, second) if speed > least]
+                    name = f"{degrees}, {mesh}, {beside} steps beside the line, faster than {least}"
+                    fact(f"{name}: number", found[0] == len(of_both), found)
+                    at_most(f"{name}: energy", abs(found[1] - math.fsum(v * v / 2 for v in of_both)), 1e-9)
+
+
+def test_drop_into_a_corner(folder):
+    """In the corner of a box a ball has a third of its energy with each side."""
+    stl.write(folder / "corner.stl", stl.quad((0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)) + stl.quad((0, 0, 0), (0, 4, 0), (0, 4, 4), (0, 0, 4)) +
+              stl.quad((0, 0, 0), (0, 0, 4), (4, 0, 4), (4, 0, 0)))
+    found = struck(folder, LAWS[0], "corner.stl", 0.1, "run 60", x="0.5103 0.5103 0.5103", v="-1 -1 -1", move="fix move all nve/sphere")
+    fact("three impacts", found[0] == 3, found)
+    at_most("of m v^2/2 in all", abs(found[1] - 1.5), 1e-12)
+
+
+def test_clump_in_a_fold(folder):
+    """Each of two spheres of a clump that lie along the line of a fold has the impacts of one, of the clump's mass."""
+    a = math.radians(60)
+    c, s = math.cos(a / 2), math.sin(a / 2)
+    clump = BOXED.replace("fix             wall", "set group all mol 1\nfix wall").replace("atom_style      sphere", "atom_style hybrid sphere molecular")
+    clump = clump.replace("set             group all diameter", "create_atoms 1 single {other} units box\nset group all diameter")
+    z = 0.5 / c + 0.0103
+    for mesh in fold(folder, (-c, s), (c, s)):
+        clumped = clump.replace("timestep        {dt}", "fix bodies all rigid/small molecule\ntimestep {dt}")
+        found = struck(folder, "hooke 100 NULL 0 NULL 0 0", mesh, 1e-4, "run 60", script=clumped, x=f"0 0.3 {z!r}", other=f"0 -0.3 {z!r}", v="0 0 -1", move="")
+        fact(f"{mesh}: two of each", found[0] == 4, found)
+        at_most(f"{mesh}: energy", abs(found[1] - 2 * (c ** 2 + (2 * c * s ** 2) ** 2)), 1e-9)
+
+
+def test_flat_floor_in_pieces(folder):
+    """A ball that falls aslant onto a flat floor strikes it once, though it goes over to another mesh, or over several triangles, in the next step."""
+    meshes = fold(folder, (-1, 0), (1, 0))
+    stl.write(folder / "fine.stl", stl.sheet(60, lambda i, j: (-0.6 + i / 50, -0.6 + j / 50, 0)))
+    for mesh, v in (*((mesh, 5) for mesh in meshes), ("fine.stl", 90)):
+        for beside in range(8):
+            x = -v * 0.0105 - v * 1e-3 * beside / 8
+            found = struck(folder, LAWS[0], mesh, 0.01, "run 13", x=f"{x!r} 0.1 0.5103", v=f"{v} 0 -1", move="fix move all nve/sphere")
+            fact(f"{mesh}, {x}: one impact", found[0] == 1, found)
+            at_most(f"{mesh}, {x}: energy", abs(found[1] - 0.5), 1e-12)
+
+
 FILES = "mesh_fields f_*.vtp every 100 impact_spectrum s_*.csv every 100"
 
 

@@ -302,8 +302,13 @@ class EngineOn : public WallEngine {
     are_counts_clear_ = false;
     job.step = static_cast<std::uint64_t>(std::max<std::int64_t>(0, step_.number - first_step_)) &
                DeepestOverlap::kRest;
-    if (law_.traits.records)
-      job.records = results.begin_records(springs_.places(), springs_.places_read(), settings_);
+    if (law_.traits.records) {
+      // A contact that begins may have a record of what it dissipates, and one of its impact.
+      const bool both = law_.traits.energy && settings_.impact_speed > 0;
+      const std::size_t of_last = springs_.places_read(), of_both_steps = springs_.places();
+      job.records = results.begin_records(of_both_steps + (both ? of_both_steps - of_last : 0),
+                                          of_last, settings_);
+    }
     job.overflow = overflow_.data();
     if (several)
       run_slots(job);

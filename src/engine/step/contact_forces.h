@@ -11,6 +11,7 @@
 #include "engine/settings.h"
 #include "engine/step/compiled_law.h"
 #include "engine/step/narrow_phase.h"
+#include "engine/step/strike.h"
 #include "law/contact.h"
 #include "law/submodels/normal.h"
 #include "motion/pose.h"
@@ -92,6 +93,7 @@ struct BookingSink : SphereSink {
   EnergyBook<Law> *book;
   EnergyMarks *marks;
   EnergyRecordList records;
+  bool *begins;    // set where a contact may begin by an impact, of a sphere that may have several
   Real friction_heat;
 };
 template <class Law>
@@ -220,15 +222,72 @@ LSDCD_FN void store_extra(const Law &law, const Memory &memory, Real *to)
     if (law.stores(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
 }
 
-// Puts the energy and the speed of an impact, by which a contact begins that no other hands a spring. A sphere that was put
-// there, or had its contact hidden behind others, has come farther than in this step.
-LSDCD_FN void add_impact(const Contact &c, const EnergyRecordList &records, EnergyRecord &record)
+// Is a contact on the feature, of this mesh of the wall, on which the spring was that it takes over?
+template <class Springs>
+LSDCD_FN bool stays(const Springs &springs, const Transfer &in, FeatureCode feature,
+                    std::uint32_t mesh)
+{
+  return in.from >= 0 && springs[in.from].feature == feature && springs[in.from].mesh == mesh;
+}
+// Is a contact of a sphere nearly aligned with that of the spring that it takes over? If that was left it has moved here: over a seam,
+// over several triangles in one step, or to another mesh.
+LSDCD_FN bool may_have_moved(const Transfer &in)
+{
+  return in.from >= 0 && in.part > kMoved;
+}
+
+// Returns what the contact of the last step takes that the only one of a sphere has moved from, if it has; `v`: of the centre against
+// the wall.
+template <class Springs>
+LSDCD_FN TakenAway taken_by_last_contact(const Transfer &in, const Springs &springs, const Vec3 &v,
+                                         Real overlap)
+{
+  TakenAway taken;
+  if (!may_have_moved(in)) return taken;
+  const Vec3 was = springs[in.from].normal;
+  taken.take({was, -dot(v, was), overlap});
+  return taken;
+}
+
+// Puts the energy and the speed of an impact into the record of a contact that begins. A sphere that was put there has come farther
+// than in this step.
+LSDCD_FN void add_impact(const TakenAway &taken, const Strike &strike, Real mass, Real dt,
+                         const EnergyRecordList &records, EnergyRecord &record)
 {
   constexpr Real kSteps = 1.5;    // speeds change on the way, and are those of half of it
-  const Real speed = -c.v_normal, least = records.impact_speed;
-  if (!(least > 0 && speed > least && c.overlap <= kSteps * c.dt * speed)) return;
-  record.impact = 0.5 * c.mass * speed * speed / records.velocity_unit;
+  const Real speed = taken.speed_left(strike);
+  if (!(speed > records.impact_speed && taken.overlap_left(strike) <= kSteps * dt * speed)) return;
+  record.impact = 0.5 * mass * speed * speed / records.velocity_unit;
   record.speed = speed;
+}
+
+// Returns the velocity of a sphere's centre less that of the wall at a point of this feature. Sets the shares of its nodes, where
+// these move.
+template <class Law, class Springs>
+LSDCD_FN Vec3 velocity_against(const MeshFeaturesView &wall, const ForceSettings &settings,
+                               const SphereStateWith<Springs> &s, FeatureCode feature,
+                               const Vec3 &closest, [[maybe_unused]] NodeShares &nodes)
+{
+  Vec3 v = s.v;
+  if constexpr (Law::kPosed)
+    if (settings.pose.placed) {
+      const Vec3 turning = cross(settings.wall_angular, closest);
+      v -= settings.wall_velocity + turning - settings.back * cross(settings.wall_angular, turning);
+    }
+  if constexpr (Law::kNodes)
+    if (settings.nodes.velocity) {
+      nodes = node_shares(wall, feature, closest);
+      v -= field_at(nodes, settings.nodes.velocity);
+    }
+  return v;
+}
+// Returns the mass that a contact moves: at a rigid body the reduced one.
+template <class Law>
+LSDCD_FN Real mass_at(const ForceSettings &settings, Real mass, const Vec3 &closest, const Vec3 &n)
+{
+  if constexpr (Law::kKeepsContacts)
+    if (settings.gives_way) return 1 / (1 / mass + settings.mobility.along(closest, n));
+  return mass;
 }
 
 // What is apart for a sphere and for another grain (shape_step.h) in add_contacts(). Of a sphere the arm of friction is along the
@@ -284,7 +343,7 @@ LSDCD_FN void book_contact(EnergyBook<Law> &book, const Law &law, const MeshFeat
   book.add(law, wall, settings, s, booked, in, marks, to);
 }
 
-// Evaluates the law for each contact and adds its force, torque and energy to `out`. `weights` null: all are 1.
+// Evaluates the law for each contact and adds its force, torque and energy to `out`. `weights` null: the sphere has one contact.
 template <class Law, class Springs, class Set, class Sink>
 LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
                            const SphereStateWith<Springs> &s, const Set &set, const Real *weights,
@@ -302,27 +361,14 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
 
     const Vec3 n = set.normal[i];
     const Vec3 closest = set.foot_of(i, s.x, n);
-    Vec3 v = s.v;
-    if constexpr (Law::kPosed)
-      if (settings.pose.placed) {
-        const Vec3 turning = cross(settings.wall_angular, closest);
-        v -= settings.wall_velocity + turning -
-             settings.back * cross(settings.wall_angular, turning);
-      }
-    [[maybe_unused]] NodeShares nodes = {};
-    if constexpr (Law::kNodes)
-      if (settings.nodes.velocity) {
-        nodes = node_shares(grid.wall, set.feature[i], closest);
-        v -= field_at(nodes, settings.nodes.velocity);
-      }
+    NodeShares nodes = {};
+    const Vec3 v = velocity_against<Law>(grid.wall, settings, s, set.feature[i], closest, nodes);
     const Real away = dot(v, n);    // of the centre
     Contact c;
     c.normal = n;
     c.overlap = overlap;
     c.radius = radius_of(law, set, i, s);
-    c.mass = s.mass;
-    if constexpr (Law::kKeepsContacts)
-      if (settings.gives_way) c.mass = 1 / (1 / s.mass + settings.mobility.along(closest, n));
+    c.mass = mass_at<Law>(settings, s.mass, closest, n);
     Vec3 along = v - away * n;
     if constexpr (Law::kPosed)
       if (settings.surface_moves) along -= settings.surface.along(closest, n, settings.back);
@@ -378,7 +424,17 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
         if (law.keeps_losses)
           sink.book->keep_losses(law, settings, s, in, before, sink.extra, out.n_contacts);
       }
-      if (settings.update && in.from < 0) add_impact(c, sink.records, record);
+      // Not of grains that are no spheres, with which walls have no impacts.
+      if constexpr (!Set::kHasArms)
+        if (settings.update && sink.records.impact_speed > 0 &&
+            !stays(s.springs, in, set.feature[i], mesh)) {
+          // Where there are several, impacts follow when all are known (impacts.h).
+          if (weights)
+            *sink.begins = true;
+          else
+            add_impact(taken_by_last_contact(in, s.springs, v, c.overlap), {n, -away, c.overlap},
+                       c.mass, c.dt, sink.records, record);
+        }
       sink.records.put(record);
     }
     if constexpr (Law::kHistory) {

@@ -6,6 +6,7 @@
 
 #include "engine/step/compiled_law.h"
 #include "engine/step/contact_energy.h"
+#include "engine/step/impacts.h"
 #include "engine/step/step_job.h"
 
 #include <cstdint>
@@ -174,7 +175,7 @@ LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const MarksO
 // Applies the law to the contacts of a sphere with one mesh or several, mesh after mesh, each in the frame of its mesh:
 // force, torque, springs and contacts. The moment about the origin is stored, too, so that totals can be made when
 // spheres are elsewhere. The sphere is a OneMeshSphere, or a MultiMeshSphere with its contacts (AtMeshes), which is a
-// candidate of each of its meshes. `weight` null: all are 1, with one mesh.
+// candidate of each of its meshes. `weight` null: there is one contact at most, with one mesh.
 template <class Law, class Sphere, class Contacts>
 LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts &set,
                         const Real *weight)
@@ -198,6 +199,7 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     does_not_fit(job, begin, i, job.counts->no_places);
     return;
   }
+  [[maybe_unused]] bool begins = false;
   [[maybe_unused]] Real deepest = 0;
   [[maybe_unused]] std::uint32_t deepest_mesh = 0, touched = 0;
   int from = 0;
@@ -219,7 +221,10 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
       to_mesh.marks = &marks;
       to_mesh.friction_heat = job.friction_heat;
     }
-    if constexpr (Law::kRecords) to_mesh.records = job.records;
+    if constexpr (Law::kRecords) {
+      to_mesh.records = job.records;
+      to_mesh.begins = &begins;
+    }
     if constexpr (Law::kHistory) to_mesh.springs += n_done;
     if constexpr (Law::kStoresExtra) to_mesh.extra += n_done * n_stored(law);
     if constexpr (Law::kKeepsContacts) to_mesh.contacts += n_done;
@@ -260,6 +265,8 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     marks.n = n_done;
   }
   if constexpr (Law::kEnergy) close_books<Law>(job, sphere, marks);
+  if constexpr (Law::kRecords && !Contacts::kHasArms)
+    if (begins) record_impacts<Law>(job, sphere, set, weight);
   if constexpr (Sphere::kSeveral)
     if (record_overlap(job, i, deepest_mesh, deepest))
       raise_to(&job.counts->deepest_meshes, DeepestOverlap::ratio(deepest) | touched);

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The impacts of a sphere that has several contacts (strike.h): laws with kRecords alone have these lines, and a step runs them where
+// a contact begins.
+#pragma once
+
+#include "engine/step/contact_forces.h"
+#include "engine/step/step_job.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+// A contact, seen in the frame that all meshes of the sphere share.
+struct StruckContact {
+  Strike strike;
+  Strike before;    // where it was in the last step; only where it has moved since
+  Real mass;        // as in Contact
+  FeatureCode feature;
+  std::uint32_t mesh;    // of the wall's
+  bool bears;            // else the corner rule hides it
+  bool stays;            // it is on its feature of the last step
+  bool has_moved;        // it was on another one; if it is neither, it is new
+};
+
+// Was the contact of old spring k left by all contacts of a sphere? `carries`: see is_left_by().
+template <class Sphere, class Contacts>
+LSDCD_FN bool is_left_by_all(const Sphere &sphere, const Contacts &set, bool carries, int k)
+{
+  for (int m = 0, from = 0; m < sphere.n_meshes(); m++) {
+    const auto slot = sphere.begin() + m;
+    const int to = sphere.contacts_end(slot, set.n);
+    const auto springs = sphere.state(sphere.mesh(slot).law, slot).springs;
+    if (!is_left_by(set.part(from, to - from), carries, old_direction(springs, k), springs, k))
+      return false;
+    from = to;
+  }
+  return true;
+}
+
+// Calls visit(contact, i) for the i-th contact of a sphere.
+template <class Law, class Sphere, class Contacts, class Visit>
+LSDCD_FN void for_each_struck(const StepJob &job, const Sphere &sphere, const Contacts &set,
+                              const Real *weight, const Visit &visit)
+{
+  for (int m = 0, i = 0; m < sphere.n_meshes(); m++) {
+    const auto slot = sphere.begin() + m;
+    const int from = i, to = sphere.contacts_end(slot, set.n);
+    if (from == to) continue;
+    const auto mesh = sphere.mesh(slot);
+    const ForceSettings &settings = mesh.settings;
+    const Contacts of_mesh = set.part(from, to - from);
+    auto state = sphere.state(mesh.law, slot);
+    add_motion(mesh.law, job, settings.pose, sphere.i, state);
+    for (; i < to; i++) {
+      const int at = i - from;
+      const Vec3 n = of_mesh.normal[at], closest = of_mesh.foot_of(at, state.x, n);
+      const FeatureCode feature = of_mesh.feature[at];
+      const Transfer in = transfer_to(mesh.grid, mesh.law, of_mesh, at, state);
+      NodeShares nodes = {};
+      const Vec3 v =
+          velocity_against<Law>(mesh.grid.wall, settings, state, feature, closest, nodes);
+      const Real overlap = of_mesh.overlap_of(at, state.radius);
+      const auto strike_along = [&](const Vec3 &normal) -> Strike {
+        return {settings.pose.turn_to_box(normal), -dot(v, normal), overlap};
+      };
+      StruckContact c = {strike_along(n),
+                         {},
+                         mass_at<Law>(settings, state.mass, closest, n),
+                         feature,
+                         settings.mesh,
+                         weight[i] > 0,
+                         stays(state.springs, in, feature, settings.mesh),
+                         false};
+      if (!c.stays && may_have_moved(in)) {
+        const Vec3 was = old_direction(state.springs, in.from);
+        c.has_moved = is_left_by_all(sphere, set, dot(n, was) > kSameDirection, in.from);
+        c.before = strike_along(was);
+      }
+      visit(c, i);
+    }
+  }
+}
+
+// Puts the impacts of a sphere into the list of records. Of those that begin in one step the fastest is the first, so that they depend
+// neither on the numbers of features nor on rounding.
+template <class Law, class Sphere, class Contacts>
+LSDCD_NOINLINE void record_impacts(const StepJob &job, const Sphere &sphere, const Contacts &set,
+                                   const Real *weight)
+{
+  TakenAway taken;    // at first by what touches already, though the corner rule may hide it now
+  for_each_struck<Law>(job, sphere, set, weight, [&](const StruckContact &c, int) {
+    if (c.stays) taken.take(c.strike);
+    if (c.has_moved) taken.take(c.before);
+  });
+  Real last_speed = kAnyDistance;
+  for (int last = -1;;) {
+    StruckContact next = {};
+    int found = -1;
+    for_each_struck<Law>(job, sphere, set, weight, [&](const StruckContact &c, int i) {
+      const Real speed = c.strike.speed;
+      const bool is_due = speed < last_speed || (speed == last_speed && i > last);
+      if (c.stays || !c.bears || !is_due || (found >= 0 && !(speed > next.strike.speed))) return;
+      next = c;
+      found = i;
+    });
+    if (found < 0) return;
+    EnergyRecord record = {next.feature, next.mesh, 0, 0, 0};
+    add_impact(taken, next.strike, next.mass, job.settings.dt, job.records, record);
+    job.records.put(record);
+    taken.take(next.strike);
+    last_speed = next.strike.speed;
+    last = found;
+  }
+}
+
+}    // namespace lsdcd
