@@ -67,7 +67,8 @@ void FixSpringsLsdcdKokkos<DeviceType>::set_laws(int width, bool booked, const s
 // ---- steps -------------------------------------------------------------------------------
 
 template <class DeviceType>
-void FixSpringsLsdcdKokkos<DeviceType>::begin_step(const lsdcd::PairRows &of_step, bool newton)
+void FixSpringsLsdcdKokkos<DeviceType>::begin_step(const lsdcd::PairRows &of_step,
+                                                   bool types_changed, bool newton)
 {
   rows = of_step;
   own = atom->nlocal;
@@ -75,7 +76,7 @@ void FixSpringsLsdcdKokkos<DeviceType>::begin_step(const lsdcd::PairRows &of_ste
   if (new_list) {
     need_on_device(atom->nlocal);
     cleared |= engine->hand_out(rows, grains());
-  } else if (by_law && (watches_types || between_runs)) {
+  } else if (by_law && types_changed) {
     cleared |= note_types();
   }
   new_list = shown = false;

@@ -42,8 +42,8 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
 
  private:
   friend class PairGranularLsdcdKokkos<DeviceType>;
-  // Before a step of the pairs in this list.
-  void begin_step(const lsdcd::PairRows &list, bool newton);
+  // As that of the plain fix.
+  void begin_step(const lsdcd::PairRows &list, bool types_changed, bool newton);
   // Returns what the pair keeps as i sees it; empty: it does not touch.
   std::vector<double> numbers_of(int i, int j);
 

@@ -5,7 +5,6 @@
 
 #include "host_kokkos.h"
 
-#include "backend/owned_array.h"
 #include "base/input_words.h"
 #include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/host_fixes.h"
@@ -316,12 +315,7 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::fill_masses()
 {
   FixWallLsdcd::fill_masses();
-  const std::size_t n = damping_mass.size();
-  if (d_damping_mass.extent(0) < n)
-    d_damping_mass = decltype(d_damping_mass)("lsdcd:damping_mass", lsdcd::with_spare(n));
-  const Kokkos::View<double *, LMPHostType, Kokkos::MemoryTraits<Kokkos::Unmanaged>> host(
-      damping_mass.data(), n);
-  Kokkos::deep_copy(Kokkos::subview(d_damping_mass, std::make_pair(std::size_t(0), n)), host);
+  lsdcd::to_device(damping_mass, d_damping_mass);
 }
 
 template class LAMMPS_NS::FixWallLsdcdKokkos<LMPDeviceType>;

@@ -14,6 +14,7 @@
 #include "kokkos_base.h"
 #include "kokkos_type.h"
 
+#include "backend/owned_array.h"
 #include "backend/threads.h"
 #include "base/input_error.h"
 #include "base/strided_view.h"
@@ -24,6 +25,8 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace lsdcd {
 
@@ -162,6 +165,30 @@ void run_on_host(LAMMPS_NS::LAMMPS *lmp, Work &&work)
   atoms.sync(LAMMPS_NS::Host, ALL_MASK);
   with_atoms_of_host(lmp, work);
   atoms.modified(LAMMPS_NS::Host, ALL_MASK);
+}
+
+// Numbers of the CPU on a device, in memory that grows where it is too small.
+template <class DeviceType>
+void to_device(const std::vector<double> &from, Kokkos::View<double *, DeviceType> &to)
+{
+  using namespace LAMMPS_NS;
+  const std::size_t n = from.size();
+  if (to.extent(0) < n) to = Kokkos::View<double *, DeviceType>("lsdcd:numbers", with_spare(n));
+  const Kokkos::View<const double *, LMPHostType, Kokkos::MemoryTraits<Kokkos::Unmanaged>> host(
+      from.data(), n);
+  Kokkos::deep_copy(Kokkos::subview(to, std::make_pair(std::size_t(0), n)), host);
+}
+
+// The first n numbers of a device on the CPU.
+template <class DeviceType>
+void from_device(const Kokkos::View<double *, DeviceType> &from, std::size_t n,
+                 std::vector<double> &to)
+{
+  using namespace LAMMPS_NS;
+  to.resize(n);
+  const Kokkos::View<double *, LMPHostType, Kokkos::MemoryTraits<Kokkos::Unmanaged>> host(to.data(),
+                                                                                          n);
+  Kokkos::deep_copy(host, Kokkos::subview(from, std::make_pair(std::size_t(0), n)));
 }
 
 // The engine whose memory is that of a Kokkos device.

@@ -5,8 +5,6 @@
 
 #include "fix_springs_lsdcd_kokkos.h"
 
-#include "backend/owned_array.h"
-
 #include "force.h"
 #include "neigh_list_kokkos.h"
 #include "neigh_request.h"
@@ -46,6 +44,7 @@ void PairGranularLsdcdKokkos<DeviceType>::init_style()
   atomKK->sync(Host, TAG_MASK | RADIUS_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK);
   full = lmp->kokkos->neighflag == FULL;
   PairGranularLsdcd::init_style();
+  lsdcd::to_device(limits, d_limits);
   if (has_heat && !lsdcd::kOnCpu<DeviceType>)
     fatal("the sub-model heat does not work for atoms on a GPU, where LAMMPS keeps no temperature: "
           "write 'suffix off' before "
@@ -68,31 +67,56 @@ void PairGranularLsdcdKokkos<DeviceType>::request_list()
   request->set_kokkos_device(device);
 }
 
+// Returns whether an atom is larger than lists hold it; where these are new it is listed.
 template <class DeviceType>
-void PairGranularLsdcdKokkos<DeviceType>::share_types_of_host()
+bool PairGranularLsdcdKokkos<DeviceType>::has_larger()
 {
-  if (!types_are_due()) return;
-  atomKK->sync(Host, TYPE_MASK);
-  execution_space = Host;
-  share_types();
-  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  atomKK->modified(Host, TYPE_MASK);
+  const int n = atom->nlocal;
+  const bool are_new = neighbor->ago == 0;
+  if (are_new && d_listed.extent(0) < std::size_t(n))
+    d_listed = decltype(d_listed)("lsdcd:listed", lsdcd::with_spare(n));
+  const auto radius = atomKK->k_radius.template view<DeviceType>();
+  const auto type = atomKK->k_type.template view<DeviceType>();
+  const auto mask = atomKK->k_mask.template view<DeviceType>();
+  const auto limit = d_limits, listed = d_listed;
+  const int bit = frozen;
+  const double spare = neighbor->skin / 4;
+  int larger = 0;
+  Kokkos::parallel_reduce(
+      Kokkos::RangePolicy<DeviceType>(0, n),
+      KOKKOS_LAMBDA(const int i, int &sum) {
+        if (are_new) listed(i) = radius(i);
+        if (radius(i) > spare + listed(i) ||
+            radius(i) > spare + limit(2 * type(i) + (mask(i) & bit ? 1 : 0)))
+          sum++;
+      },
+      larger);
+  return larger > 0;
 }
 
-// LAMMPS sends masses of bodies to ghost atoms on the host.
+// Radii stay on the device, unless fix adapt changes them on the host.
 template <class DeviceType>
-void PairGranularLsdcdKokkos<DeviceType>::bring_masses()
+void PairGranularLsdcdKokkos<DeviceType>::check_radii_where_they_are()
 {
-  if (!masses_are_due()) return;
-  atomKK->sync(Host, RMASS_MASK);
+  if (!radii_are_due()) return;
+  atomKK->sync(execution_space, RADIUS_MASK | TYPE_MASK | MASK_MASK);
+  if (!adapts && !has_larger()) return;
+  atomKK->sync(Host, RADIUS_MASK | TYPE_MASK | MASK_MASK | TAG_MASK);
+  if (!adapts) lsdcd::from_device(d_listed, atom->nlocal, listed_radius);
+  check_radii();
+}
+
+// LAMMPS sends them to ghost atoms on the host.
+template <class DeviceType>
+void PairGranularLsdcdKokkos<DeviceType>::share_atoms_of_host()
+{
+  if (!ghosts_are_due()) return;
+  atomKK->sync(Host, TYPE_MASK | RADIUS_MASK | RMASS_MASK);
   execution_space = Host;
-  fill_masses();
+  share_atoms();
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  if (d_masses.extent(0) < masses.size())
-    d_masses = decltype(d_masses)("lsdcd:masses", lsdcd::with_spare(masses.size()));
-  const Kokkos::View<double *, LMPHostType, Kokkos::MemoryTraits<Kokkos::Unmanaged>> host(
-      masses.data(), masses.size());
-  Kokkos::deep_copy(Kokkos::subview(d_masses, std::make_pair(std::size_t(0), masses.size())), host);
+  if (atoms_changed()) atomKK->modified(Host, TYPE_MASK | RADIUS_MASK | RMASS_MASK);
+  if (rigid) lsdcd::to_device(masses, d_masses);
 }
 
 template <class DeviceType>
@@ -139,15 +163,13 @@ template <class DeviceType>
 void PairGranularLsdcdKokkos<DeviceType>::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
-  if (adapts) atomKK->sync(Host, RADIUS_MASK | TYPE_MASK | MASK_MASK | TAG_MASK);
-  check_growth();
-  share_types_of_host();
-  bring_masses();
+  check_radii_where_they_are();
+  share_atoms_of_host();
   atomKK->sync(execution_space, X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK |
                                     TYPE_MASK | MASK_MASK | F_MASK | TORQUE_MASK);
   const lsdcd::PairInput now = step();
   if (kept_width() > 0)
-    static_cast<FixSpringsLsdcdKokkos<DeviceType> *>(springs)->begin_step(now.list,
+    static_cast<FixSpringsLsdcdKokkos<DeviceType> *>(springs)->begin_step(now.list, atoms_changed(),
                                                                           force->newton_pair);
   double sums[lsdcd::kPairSums];
   engine->run(now, evflag ? sums : nullptr);

@@ -21,14 +21,20 @@ class PairGranularLsdcdKokkos : public PairGranularLsdcd {
   void compute(int, int) override;
   double memory_usage() override;
 
+  bool has_larger();    // public for nvcc
+
  protected:
   std::string springs_style() const override;
   void request_list() override;
   std::vector<double> kept_numbers(int, int) override;
+  bool lists_are_by_types() const override
+  {
+    return full || PairGranularLsdcd::lists_are_by_types();
+  }
 
  private:
-  void share_types_of_host();
-  void bring_masses();
+  void check_radii_where_they_are();
+  void share_atoms_of_host();
   lsdcd::PairInput step();
   void tally(const double *sums);
 
@@ -37,6 +43,7 @@ class PairGranularLsdcdKokkos : public PairGranularLsdcd {
   bool full = false;    // lists have each pair twice, and no force is added by two threads
   Kokkos::View<double *, DeviceType>
       d_masses;    // of atoms, or of the rigid bodies that they are of
+  Kokkos::View<double *, DeviceType> d_limits, d_listed;
   std::vector<double> of_grains;
 };
 

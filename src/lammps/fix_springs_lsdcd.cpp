@@ -156,11 +156,11 @@ void FixSpringsLsdcd::set_laws(int width, bool booked, const std::string &of_law
   kinds = of_laws;
 }
 
-void FixSpringsLsdcd::begin_step(const lsdcd::PairList &of_step)
+void FixSpringsLsdcd::begin_step(const lsdcd::PairList &of_step, bool types_changed)
 {
   list = of_step;
   own = atom->nlocal;
-  if (by_law && !new_list && (watches_types || between_runs)) cleared |= note_types();
+  if (by_law && !new_list && types_changed) cleared |= note_types();
   now = 1 - now;
   if (new_list) {
     const AtomsOfPairs atoms = {*atom, atom->type, laws.flips, laws.kind};
@@ -203,8 +203,8 @@ double FixSpringsLsdcd::near_images() const
 {
   const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
   // Of two images in a list one may touch. Lists that do not ask for radii, as those of adhesion, reach as far as a pair style says.
-  const double touch = largest_pair + (watches_radii ? neighbor->skin : 0),
-               reach = touch + std::max(touch + neighbor->skin, neighbor->cutneighmax);
+  const double reach =
+      largest_pair + std::max(largest_pair + neighbor->skin, neighbor->cutneighmax);
   double least = reach;
   for (int k = 0; k < 3; k++)
     if (box.periodic[k]) least = std::min(least, box.width(k));

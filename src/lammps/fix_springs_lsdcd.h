@@ -65,8 +65,8 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   // Before a run. `width`: numbers that laws keep of a pair, 0: nothing. `books`: pairs keep KeptForces behind these. `kinds`: of all
   // pairs of types, with a ';' behind each.
   virtual void set_laws(int width, bool books, const std::string &kinds, const LawsOfTypes &laws);
-  // Before a step of the pairs in this list.
-  void begin_step(const lsdcd::PairList &list);
+  // Before a step of the pairs in this list. `types_changed`: types may have changed since the last step, with the same list.
+  void begin_step(const lsdcd::PairList &list, bool types_changed);
   const lsdcd::PairHistory &old() const { return history[1 - now]; }
   lsdcd::PairHistory &next() { return history[now]; }
   // Returns what the pair of row and place of the last list keeps; nothing if it does not touch.
@@ -111,16 +111,16 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   bool from_file =
       false;    // partners are those of a restart file, whose laws have not been checked
   LawsOfTypes laws;
-  // Laws of types keep numbers of several kinds. Types may change in a run between lists, types in the last step of a list's pairs,
-  // numbers were cleared since this was told.
-  bool by_law = false, watches_types = false, cleared = false;
+  // Laws of types keep numbers of several kinds; types in the last step of a list's pairs; numbers were cleared since this was told.
+  bool by_law = false, cleared = false;
   std::vector<int> listed_type;
-  double largest_pair = 0;    // the distance at which the two largest grains touch
+  double largest_pair =
+      0;    // the distance at which the two largest grains touch, however they may grow
   // Commands between runs may give atoms other IDs: that under which partners know an atom, 0: it is new.
   bool between_runs = true;
   std::vector<tagint> known_as;
   RerunWatch watch;
-  // Of atoms when the list was made, where something changes them.
+  // Of atoms when the list was made, where fix adapt changes them before the step of pairs.
   bool watches_radii = false;
   std::vector<double> listed_radius;
 

@@ -293,7 +293,7 @@ void FixWallLsdcd::init()
     if (fix->rigid_flag) rigid = true;
     if (std::strncmp(fix->style, "adapt", 5) == 0) adapts = true;
   }
-  retyping = steps_between_types(*modify);
+  changing = steps_between_changes(*modify);
   if (!rigid) std::vector<double>().swap(damping_mass);
   check_heat();
   if (spec().energy && std::strncmp(update->integrate_style, "respa", 5) == 0)
@@ -370,7 +370,8 @@ void FixWallLsdcd::pre_force(int vflag)
   const bool without_setup =
       update->ntimestep == update->firststep + 1 && set_up_at != update->firststep;
   if (without_setup) check_node_tags();
-  looks_anew = adapts || neighbor->ago == 0 || without_setup;
+  looks_anew = adapts || neighbor->ago == 0 || without_setup ||
+               atoms_may_have_changed(changing, update->ntimestep);
   if (!begins_late()) begin(looks_anew);
 }
 
@@ -452,9 +453,9 @@ lsdcd::StepInput FixWallLsdcd::step_input(bool look)
   lsdcd::StepInput input;
   input.step = step_now();
   input.look = look;
-  input.new_types = types_may_have_changed(retyping, update->ntimestep);
+  const bool changes = adapts || !changing.empty();
   input.new_spheres =
-      update->setupflag || (neighbor->ago == 0 && (adapts || atom->natoms != counted_atoms));
+      update->setupflag || (neighbor->ago == 0 && (changes || atom->natoms != counted_atoms));
   input.box_changes = domain->box_change;
   input.drift = sphere_drift();
   input.virial = vflag_global;
@@ -462,7 +463,7 @@ lsdcd::StepInput FixWallLsdcd::step_input(bool look)
   return input;
 }
 
-// `look`: may there be new spheres, or other radii?
+// `look`: may there be new spheres, or other radii, types or masses?
 void FixWallLsdcd::begin(bool look)
 {
   if (rigid) fill_masses();

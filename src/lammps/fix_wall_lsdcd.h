@@ -93,8 +93,8 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   int nlevels_respa = 0;        // 0 under verlet
   bigint counted_atoms = -1;    // how many there were when the wall was told of new spheres
   bool adapts = false;          // some fix changes radii
-  bool looks_anew = false;      // there may be new spheres, or other radii, in this step
-  std::vector<int> retyping;    // see steps_between_types()
+  bool looks_anew = false;      // there may be new spheres, or others than before, in this step
+  std::vector<int> changing;    // see steps_between_changes()
   bool rigid = false;           // some rigid fix holds atoms: damping_mass replaces rmass
   std::vector<double> damping_mass;
   std::deque<NodeAtoms> node_atoms;    // of each mesh that has nodes

@@ -107,7 +107,7 @@ std::string LAMMPS_NS::doubled_mesh(const FixWallLsdcd &wall, Modify &modify, co
   return "";
 }
 
-std::vector<int> LAMMPS_NS::steps_between_types(Modify &modify)
+std::vector<int> LAMMPS_NS::steps_between_changes(Modify &modify)
 {
   std::vector<int> found;
   for (Fix *fix : lsdcd::host_fixes(modify))
@@ -116,7 +116,7 @@ std::vector<int> LAMMPS_NS::steps_between_types(Modify &modify)
   return found;
 }
 
-bool LAMMPS_NS::types_may_have_changed(const std::vector<int> &steps_between, bigint step)
+bool LAMMPS_NS::atoms_may_have_changed(const std::vector<int> &steps_between, bigint step)
 {
   return std::any_of(steps_between.begin(), steps_between.end(),
                      [step](int every) { return step % every == 0 || step % every == 1; });

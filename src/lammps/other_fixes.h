@@ -25,11 +25,12 @@ void check_files_apart(const class Fix &, class LAMMPS &, lsdcd::Host &);
 // empty: none has. The later fix warns. Collective.
 std::string doubled_mesh(const class FixWallLsdcd &, class Modify &, const class Atom &, MPI_Comm);
 
-// Returns every how many steps fixes act that may change types of atoms in a run, also between lists.
-std::vector<int> steps_between_types(class Modify &);
-// Returns whether fixes that act every so many steps may have changed types since the last step: at its end, as fix set does, or in
+// Returns every how many steps fixes act that may change types, radii or masses of atoms in a run, also between lists. Fix adapt is not
+// among them: it also changes ghost atoms, and in the step itself.
+std::vector<int> steps_between_changes(class Modify &);
+// Returns whether fixes that act every so many steps may have changed atoms since the last step: at its end, as fix set does, or in
 // this one.
-bool types_may_have_changed(const std::vector<int> &steps_between, bigint step);
+bool atoms_may_have_changed(const std::vector<int> &steps_between, bigint step);
 
 // Returns a text where a pair style of LAMMPS puts the springs of pairs to their atoms after this fix has created or deleted
 // some, so that they would go to other atoms; empty: none does.

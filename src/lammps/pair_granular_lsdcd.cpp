@@ -41,6 +41,7 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr int kSingleNumbers = 12;    // of LAMMPS's pair granular
+constexpr int kOfGhost = 3;           // type, radius, mass
 
 std::string types_text(int i, int j)
 {
@@ -58,7 +59,7 @@ PairGranularLsdcd::PairGranularLsdcd(LAMMPS *lmp) :
   no_virial_fdotr_compute = 1;
   centroidstressflag = CENTROID_NOTAVAIL;
   finitecutflag = 1;
-  comm_forward = 1;
+  comm_forward = kOfGhost;
   single_extra = kSingleNumbers;
   svector = new double[kSingleNumbers];
 
@@ -246,6 +247,7 @@ void PairGranularLsdcd::init_style()
     fatal("with newton on LAMMPS cannot send springs to their grains by comm_style tiled: write "
           "newton off");
   request_list();
+  set_limits();
   if (!told) tell_laws();
   told = true;
   check_step();
@@ -297,13 +299,13 @@ void PairGranularLsdcd::set_springs()
   if (!springs) return;
   check_order();
   springs->watches_radii = adapts;
-  springs->watches_types = !retyping.empty();
   springs->set_laws(width, books, kinds,
                     {[this](int i, int j) { return flips_of[law_index(i, j)]; },
                      [this](int i, int j) { return numbers[law_index(i, j)].history_kind(); }});
   double largest = 0;
   for (const Radii &r : radii) largest = std::max({largest, r.moving, r.frozen});
-  springs->largest_pair = radii2cut(largest, largest);
+  const bool may_grow = adapts || !changing.empty();
+  springs->largest_pair = radii2cut(largest, largest) + (may_grow ? neighbor->skin : 0);
 }
 
 // Before lists are made anew the springs go from pairs to atoms, whose indices must be those of the last step.
@@ -328,7 +330,7 @@ void PairGranularLsdcd::find_fixes()
   frozen = 0;
   rigid = nullptr;
   adapts = false;
-  retyping = steps_between_types(*modify);
+  changing = steps_between_changes(*modify);
   for (Fix *fix : lsdcd::host_fixes(*modify)) {
     if (std::strncmp(fix->style, "adapt", 5) == 0) adapts = true;
     if (std::strncmp(fix->style, "freeze", 6) == 0) {
@@ -343,6 +345,7 @@ void PairGranularLsdcd::find_fixes()
   if (!rigid) std::vector<double>().swap(masses);
 }
 
+// Where types may change in a run, an atom of any type may be as large as any other.
 void PairGranularLsdcd::find_radii()
 {
   std::vector<double> largest(2 * (static_cast<std::size_t>(n_types) + 1), 0);
@@ -372,6 +375,48 @@ void PairGranularLsdcd::find_radii()
     radii[i] = {largest[2 * i], largest[2 * i + 1], least[2 * i], least[2 * i + 1]};
     if (!std::isfinite(radii[i].least)) radii[i].least = radii[i].least_mass = 0;
   }
+  if (changing.empty()) return;
+  const Radii all = largest_radii();
+  for (Radii &r : radii) {
+    r.moving = all.moving;
+    r.frozen = all.frozen;
+  }
+}
+
+PairGranularLsdcd::Radii PairGranularLsdcd::largest_radii() const
+{
+  Radii all;
+  for (const Radii &r : radii) {
+    all.moving = std::max(all.moving, r.moving);
+    all.frozen = std::max(all.frozen, r.frozen);
+  }
+  return all;
+}
+
+// LAMMPS takes types for lists that do not ask for radii, and for the cells of neighbor multi.
+bool PairGranularLsdcd::lists_are_by_types() const
+{
+  return beyond_contact || (neighbor->style != Neighbor::NSQ && neighbor->style != Neighbor::BIN);
+}
+
+// Lists by radii hold all pairs up to the largest cutoff of two types.
+void PairGranularLsdcd::set_limits()
+{
+  Radii all = largest_radii();
+  limits.clear();
+  if (lists_are_by_types()) {
+    for (const Radii &r : radii) {
+      const Radii &most = std::max(r.moving, r.frozen) > 0 ? r : all;    // else see init_one()
+      limits.insert(limits.end(), {most.moving, most.frozen});
+    }
+    return;
+  }
+  double most = std::max({cutoff, 2 * all.moving, all.moving + all.frozen});
+  for (const lsdcd::PairCoeff &coeff : coeffs) most = std::max(most, coeff.cutoff);
+  all.frozen = std::max(all.frozen, most / 2);
+  all.moving = std::max(all.moving, most - all.frozen);
+  for (std::size_t i = 0; i < radii.size(); i++)
+    limits.insert(limits.end(), {all.moving, all.frozen});
 }
 
 // Up to which distance two grains may act on each other; 0 where there is one of them only.
@@ -412,24 +457,29 @@ double PairGranularLsdcd::radii2cut(double radius, double other)
   return sum > 0 ? sum + pull_off * std::cbrt(radius * other / sum) : 0;
 }
 
-// Lists are of the radii when they were made, and reach as far as those at the begin of the run. Half of the skin is for motion.
-void PairGranularLsdcd::check_growth()
+// Lists are made for radii up to limits, and for those that atoms had. Half of the skin is for motion.
+void PairGranularLsdcd::check_radii()
 {
-  if (!adapts) return;
+  const int n = atom->nlocal;
+  if (neighbor->ago == 0 && !adapts) listed_radius.assign(atom->radius, atom->radius + n);
+  const std::vector<double> &listed = adapts ? springs->listed_radius : listed_radius;
   const double spare = neighbor->skin / 4;
-  for (int i = 0; i < atom->nlocal; i++) {
-    const Radii &r = radii[atom->type[i]];
-    const bool listed = atom->radius[i] <= spare + springs->listed_radius[i];
-    if (listed && atom->radius[i] <= spare + (atom->mask[i] & frozen ? r.frozen : r.moving))
-      continue;
-    fatal_here("the radius of atom " + std::to_string(atom->tag[i]) + " has grown to " +
+  for (int i = 0; i < n; i++) {
+    const double most = limits[2 * atom->type[i] + (atom->mask[i] & frozen ? 1 : 0)];
+    const bool is_listed = atom->radius[i] <= spare + listed[i];
+    if (is_listed && atom->radius[i] <= spare + most) continue;
+    const std::string of_type =
+        lists_are_by_types() ? " of type " + std::to_string(atom->type[i]) : "";
+    fatal_here("the radius of atom " + std::to_string(atom->tag[i]) + " is " +
                lsdcd::number_text(atom->radius[i]) + ", for which contacts would be missed: " +
-               (listed ? "end the run before the largest radius has grown by a quarter of the "
-                         "skin, as by 'run N every M NULL', or make the skin larger (neighbor)"
-                       : "since neighbor lists were made it was " +
-                             lsdcd::number_text(springs->listed_radius[i]) +
-                             ", and may grow by a quarter of the skin: write 'neigh_modify check "
-                             "no' with a smaller 'every', and set radii before the run"));
+               (is_listed
+                    ? "the lists of this run are for grains" + of_type + " of up to " +
+                          lsdcd::number_text(most) +
+                          "; end the run before the largest radius has grown by a quarter of the "
+                          "skin, as by 'run N every M NULL', or make the skin larger (neighbor)"
+                    : "since neighbor lists were made it was " + lsdcd::number_text(listed[i]) +
+                          ", and may grow by a quarter of the skin: write 'neigh_modify check "
+                          "no' with a smaller 'every', and set radii before the run"));
   }
 }
 
@@ -496,27 +546,39 @@ void PairGranularLsdcd::check_step()
 
 // ---- a step ------------------------------------------------------------------------------
 
-// Fix adapt also changes masses between two lists.
-bool PairGranularLsdcd::masses_are_due() const
+// Returns whether types, radii or masses may have changed since the last step, with the same lists: by a fix, or by a command before a
+// run without a setup.
+bool PairGranularLsdcd::atoms_changed() const
 {
-  return rigid && (neighbor->ago == 0 || adapts);
+  if (update->setupflag || neighbor->ago == 0) return false;
+  const bigint now = update->ntimestep;
+  return now == update->firststep + 1 || atoms_may_have_changed(changing, now);
 }
 
-void PairGranularLsdcd::fill_masses()
+bool PairGranularLsdcd::radii_are_due() const
 {
-  if (!masses_are_due()) return;
-  int dim;
-  const int *const body = static_cast<const int *>(rigid->extract("body", dim));
-  const double *const mass = static_cast<const double *>(rigid->extract("masstotal", dim));
-  masses.assign(atom->rmass, atom->rmass + atom->nlocal);
-  masses.resize(static_cast<std::size_t>(atom->nlocal) + atom->nghost);
-  for (int i = 0; body && mass && i < atom->nlocal; i++)
-    if (body[i] >= 0 && mass[body[i]] > 0) masses[i] = mass[body[i]];
-  send_to_ghosts();
+  return neighbor->ago == 0 || adapts || atoms_changed();
 }
 
-void PairGranularLsdcd::send_to_ghosts()
+// LAMMPS gives ghost atoms types, radii and masses with new lists, and fix adapt changes them there, too. Masses of bodies are ours.
+bool PairGranularLsdcd::ghosts_are_due() const
 {
+  return atoms_changed() || (rigid && radii_are_due());
+}
+
+// Else the two processes of a pair would take different laws and overlaps.
+void PairGranularLsdcd::share_atoms()
+{
+  if (!ghosts_are_due()) return;
+  if (rigid) {
+    int dim;
+    const int *const body = static_cast<const int *>(rigid->extract("body", dim));
+    const double *const mass = static_cast<const double *>(rigid->extract("masstotal", dim));
+    masses.assign(atom->rmass, atom->rmass + atom->nlocal);
+    masses.resize(static_cast<std::size_t>(atom->nlocal) + atom->nghost);
+    for (int i = 0; body && mass && i < atom->nlocal; i++)
+      if (body[i] >= 0 && mass[body[i]] > 0) masses[i] = mass[body[i]];
+  }
 #if LSDCD_HOST_VERSION < 20220601
   comm->forward_comm_pair(this);
 #else
@@ -524,36 +586,26 @@ void PairGranularLsdcd::send_to_ghosts()
 #endif
 }
 
-// Returns whether types may have changed since the last step, with the same lists: by a fix, or by a command before a run without a
-// setup.
-bool PairGranularLsdcd::types_are_due() const
-{
-  if (laws.size() < 2 || update->setupflag || neighbor->ago == 0) return false;
-  const bigint now = update->ntimestep;
-  return now == update->firststep + 1 || types_may_have_changed(retyping, now);
-}
-
-// Ghost atoms get their types with new lists only, and the two processes of a pair would take different laws.
-void PairGranularLsdcd::share_types()
-{
-  if (!types_are_due()) return;
-  sends_types = true;
-  send_to_ghosts();
-  sends_types = false;
-}
-
 int PairGranularLsdcd::pack_forward_comm(int n, int *atoms, double *buf, int, int *)
 {
-  for (int k = 0; k < n; k++) buf[k] = sends_types ? atom->type[atoms[k]] : masses[atoms[k]];
-  return n;
+  const double *const mass = rigid ? masses.data() : atom->rmass;
+  for (int k = 0; k < n; k++) {
+    const int i = atoms[k];
+    *buf++ = atom->type[i];
+    *buf++ = atom->radius[i];
+    *buf++ = mass[i];
+  }
+  return n * kOfGhost;
 }
 
 void PairGranularLsdcd::unpack_forward_comm(int n, int first, double *buf)
 {
-  if (sends_types)
-    std::copy_n(buf, n, atom->type + first);
-  else
-    std::copy_n(buf, n, masses.begin() + first);
+  double *const mass = rigid ? masses.data() : atom->rmass;
+  for (int i = first; i < first + n; i++) {
+    atom->type[i] = static_cast<int>(*buf++);
+    atom->radius[i] = *buf++;
+    mass[i] = *buf++;
+  }
 }
 
 double PairGranularLsdcd::time_step() const
@@ -606,12 +658,11 @@ lsdcd::PairJob PairGranularLsdcd::job()
 void PairGranularLsdcd::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
-  check_growth();
-  share_types();
-  fill_masses();
+  if (radii_are_due()) check_radii();
+  share_atoms();
   lsdcd::PairJob step = job();
   if (kept_width() > 0) {
-    springs->begin_step(step.list);
+    springs->begin_step(step.list, atoms_changed());
     step.old = &springs->old();
     step.history = &springs->next();
   }
@@ -685,6 +736,7 @@ double PairGranularLsdcd::single(int i, int j, int itype, int jtype, double /*rs
 
 double PairGranularLsdcd::memory_usage()
 {
-  return Pair::memory_usage() + static_cast<double>(masses.capacity() * sizeof(double) +
-                                                    record.capacity() * sizeof record[0]);
+  return Pair::memory_usage() +
+         static_cast<double>((masses.capacity() + listed_radius.capacity()) * sizeof(double) +
+                             record.capacity() * sizeof record[0]);
 }

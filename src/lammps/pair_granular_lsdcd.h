@@ -48,11 +48,12 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   virtual std::string springs_style() const { return "SPRINGS/LSDCD"; }
   virtual void request_list();
   virtual std::vector<double> kept_numbers(int i, int j);
-  bool masses_are_due() const;
-  void fill_masses();
-  void check_growth();
-  bool types_are_due() const;
-  void share_types();
+  virtual bool lists_are_by_types() const;
+  bool atoms_changed() const;
+  bool radii_are_due() const;
+  void check_radii();
+  bool ghosts_are_due() const;
+  void share_atoms();
   double time_step() const;
   bool time_passes() const;
   int kept_width() const;    // numbers that a touching pair keeps
@@ -69,6 +70,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   void allocate();
   std::vector<std::string> words_of_materials(const std::vector<std::string> &);
   void find_radii();
+  Radii largest_radii() const;
   void find_fixes();
   void set_springs();
   void check_order() const;
@@ -76,7 +78,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   lsdcd::PairJob job();
   void tell_laws();
   void check_step();
-  void send_to_ghosts();
+  void set_limits();
 
   double cutoff = -1;
   std::map<std::pair<int, int>, lsdcd::PairCoeff> given;    // i <= j
@@ -89,8 +91,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
       without_law;    // types that cannot be mixed, and why; within a hybrid style they may have another style
   std::vector<Radii> radii;
   bool told = false;
-  std::vector<int> retyping;    // see steps_between_types()
-  bool sends_types = false;     // to ghost atoms; else masses
+  std::vector<int> changing;    // see steps_between_changes()
   double warned_of = 0;         // the timestep that the last warning was about
   std::string springs_id, dummy_id;
   std::vector<lsdcd::RecordedPair> record;
@@ -100,7 +101,10 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::vector<lsdcd::ContactLaw> numbers;    // of each law
   std::vector<int> law_of;                   // of types i and j at i * (n_types + 1) + j
   bool has_heat = false, books = false;
-  bool adapts = false;                         // there is a fix adapt, which may change radii
+  bool adapts = false;    // there is a fix adapt, which may change radii
+  // Radii up to which lists hold grains of each type, at 2 * type, and those of fix freeze, behind it; those of atoms when lists were
+  // made, where there is no fix adapt.
+  std::vector<double> limits, listed_radius;
   class FixSpringsLsdcd *springs = nullptr;    // null: no law has kept anything yet
   class Fix *rigid = nullptr;
   int frozen = 0;                // bit of the group of fix freeze

@@ -14,8 +14,7 @@ namespace lsdcd {
 // The input of a step.
 struct StepInput {
   Step step;
-  bool look = false;           // spheres may be others, or have other radii, since the last step
-  bool new_types = false;      // types of spheres may have changed since the last step
+  bool look = false;    // spheres may be others, or have other radii or types, since the last step
   bool new_spheres = false;    // spheres may have come: the timestep and their overlaps are checked
   bool box_changes = false;    // the box may have changed since the last step
   SphereDrift drift;

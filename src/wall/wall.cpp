@@ -229,9 +229,11 @@ void Wall::open_step(const HostSpheres &spheres, const StepInput &input)
     snapshots_.check(meshes_, step);
     history_.clear();
   }
-  // Spheres of one law are together in a choice.
-  if (input.look || (input.new_types && laws_.kinds > 1)) engine_->expire_choice();
-  if (input.look) check_history(spheres.n);
+  // A choice is of radii, and has spheres of one law together.
+  if (input.look) {
+    engine_->expire_choice();
+    check_history(spheres.n);
+  }
   clock_.advance(step);
 }
 

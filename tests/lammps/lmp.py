@@ -97,6 +97,36 @@ def environment():
     return env
 
 
+def set_in_run(every, first, last, **values):
+    """Lines with a fix of ID change, by which atoms of these IDs get a type, diameter or density at the end of each so many steps: fix set, or where
+    LAMMPS does not have it one that has Python write LAMMPS's arrays. Each value is a formula of id and step that both read."""
+    if ON_HOST:
+        return "".join(f"variable set_{name} atom {formula}\n" for name, formula in values.items()) + \
+            f"fix change all set {every} 0 atom {first}*{last} " + " ".join(f"{name} v_set_{name}" for name in values) + "\n"
+    write = {"type": "type[i] = int({})", "diameter": "radius[i] = 0.5 * ({})", "density": "rmass[i] = 4 / 3 * math.pi * radius[i]**3 * ({})"}
+    return """python change here \"\"\"
+def change(capsule):
+    import ctypes, math
+    library, pointer = ctypes.CDLL(None), ctypes.pythonapi.PyCapsule_GetPointer
+    pointer.restype, pointer.argtypes = ctypes.c_void_p, [ctypes.py_object, ctypes.c_char_p]
+    lammps = ctypes.c_void_p(pointer(capsule, None))
+    library.lammps_extract_atom.restype = ctypes.c_void_p
+    library.lammps_get_thermo.restype = ctypes.c_double
+    def array(name, kind):
+        return ctypes.cast(library.lammps_extract_atom(lammps, name), ctypes.POINTER(kind))
+    ids, type = array(b"id", ctypes.c_int), array(b"type", ctypes.c_int)
+    radius, rmass = array(b"radius", ctypes.c_double), array(b"rmass", ctypes.c_double)
+    step = library.lammps_get_thermo(lammps, b"step")
+    for i in range(library.lammps_extract_setting(lammps, b"nlocal")):
+        id = ids[i]
+        if FIRST <= id <= LAST:
+            VALUES
+\"\"\"
+fix change all python/invoke EVERY end_of_step change
+""".replace("FIRST", str(first)).replace("LAST", str(last)).replace("EVERY", str(every)).replace(
+        "VALUES", "; ".join(write[name].format(formula) for name, formula in values.items()))
+
+
 def flat_walls(fixes):
     """Lines with LAMMPS's own flat walls. They have no suffix, as not every style of fix wall/gran has a form for Kokkos."""
     return ('if "$(is_active(package,kokkos))" then "suffix off"\n' + fixes.rstrip("\n") +

@@ -7,6 +7,7 @@ Grains of a lattice in a periodic box, which touch and part, turn, and go from p
 while rounding has not grown: it doubles in some 40 steps of such a gas.
 """
 
+import math
 import random
 import re
 import struct
@@ -131,6 +132,65 @@ run 400
         lmp.run_well(text, folder)
         dumps.append(lmp.read_dump(folder / "out"))
     at_most("positions and velocities", lmp.largest_difference(*dumps), 1e-12)
+
+
+def approaching(newton="off", rigid=False):
+    """Two grains, one on each side of the face between processes, approach each other with lists that stay."""
+    bodies = "fix mark all property/atom i_body\nset group body i_body 1\nfix stiff body rigid/small custom i_body\n"
+    return lmp.head("-3 3 -3 3 -3 3", newton=newton, more="processors * 1 1\n") + "".join(
+        f"create_atoms 1 single {at} 0\n" for at in ("-0.499 0", "0.499 0", "-2 -2", "-2 -1.7")) + f"""set group all diameter 1 density 1
+group body id > 2
+group pair id < 3
+set group body diameter 0.5 density 1
+group left id 1
+group right id 2
+velocity left set 0.1 0 0
+velocity right set -0.1 0 0
+neigh_modify delay 0 every 1000 check no exclude group body body
+{ours("* * hooke 1000 50 tangential linear_nohistory 0 0 damping mass_velocity")}
+fix move pair nve/noforce
+{bodies if rigid else ""}timestep 1e-4
+""" + dump("out", 1)
+
+
+def push_of_two(step, diameters, densities):
+    """A spring of 1000 and a dashpot of 50 of the reduced mass, at a speed of 0.2."""
+    masses = [rho * math.pi / 6 * d**3 for d, rho in zip(diameters, densities)]
+    return 1000 * (sum(diameters) / 2 - (0.998 - 0.2e-4 * step)) + 50 * 0.2 * masses[0] * masses[1] / sum(masses)
+
+
+def is_push(what, row, push):
+    # Sums of numbers up to 1000, of which each is rounded to 1e-16: 1e-13 of a push above 1.
+    at_most(what, max(abs(row[1][9] + push), abs(row[2][9] - push)) / push, 1e-12)
+
+
+@pytest.mark.parametrize("rigid", [False, True])
+def test_set_before_a_run_without_setup(folder, rigid):
+    """The command set changes radii and masses of both grains of a pair, where LAMMPS makes no new lists before the run, and where there are rigid
+    bodies elsewhere."""
+    change = "run 5\nset atom 1 diameter 1.004 density 2\nset atom 2 diameter 1.008 density 3\nrun 5 pre no\n"
+    for newton in ("off", "on"):
+        for ranks in (1, 2):
+            lmp.run_well(approaching(newton, rigid) + change, folder, ranks)
+            for step, rows in lmp.read_dump(folder / "out").items():
+                push = push_of_two(step, (1, 1), (1, 1)) if step <= 5 else push_of_two(step, (1.004, 1.008), (2, 3))
+                is_push(f"newton {newton}, {ranks} ranks, step {step}", rows, push)
+
+
+def changed_by_fix_set(every, newton, rigid):
+    return approaching(newton, rigid) + lmp.set_in_run(every, 1, 2, diameter="1+0.0004*id*step", density="1+0.1*id*step") + "run 12\n"
+
+
+@pytest.mark.parametrize("rigid", [False, True])
+def test_fix_set(folder, rigid):
+    """Radii and masses that fix set changes are those of both grains in the next step, also where lists stay and processes share the pair, and
+    where there are rigid bodies elsewhere."""
+    for every, newton, ranks in ((1, "off", 1), (5, "off", 2), (1, "on", 2), (5, "on", 1)):
+        lmp.run_well(changed_by_fix_set(every, newton, rigid), folder, ranks)
+        for step, rows in lmp.read_dump(folder / "out").items():
+            last = max(0, (step - 1) // every * every)    # fix set acts at the end of a step
+            push = push_of_two(step, [1 + 0.0004 * i * last for i in (1, 2)], [1 + 0.1 * i * last for i in (1, 2)])
+            is_push(f"set each {every}, newton {newton}, {ranks} ranks, step {step}", rows, push)
 
 
 def test_tiles(folder):
@@ -474,9 +534,69 @@ fix grow all adapt 1 atom diameter v_d
         lmp.refused(f"check {check}", text + f"neigh_modify delay 0 every 1 check {check}\nrun 700\n", folder, says)
     # A grain that becomes as large as the others are, after the list was made.
     lmp.refused("in the setup", text.replace("fix grow", "set atom 2 diameter 0.3\nfix grow") + "run 0\n", folder, "it was 0.15", "set radii before")
-    lmp.run_well(text + "run 700 every 20 NULL\n", folder)
-    push = lmp.read_dump(folder / "out")[700][1][9]
-    at_most("the push", abs(push / (-1e4 * 0.2 * (0.425 * 0.2)**0.5) - 1), 1e-10)
+    # Lists that are anew in each step hold grains up to a cutoff that is given.
+    wide = text.replace("granular/lsdcd\n", "granular/lsdcd 1.8\n") + "neigh_modify delay 0 every 1 check no\nrun 700\n"
+    for name, run in (("many runs", text + "run 700 every 20 NULL\n"), ("a cutoff", wide)):
+        lmp.run_well(run, folder)
+        push = lmp.read_dump(folder / "out")[700][1][9]
+        at_most(f"{name}: the push", abs(push / (-1e4 * 0.2 * (0.425 * 0.2)**0.5) - 1), 1e-10)
+
+
+def test_growth_before_a_run_without_setup(folder):
+    """The command set makes grains larger than lists are for, and one as large as the others are."""
+    text = settings() + ACROSS.format(1, 2.5, ours("* * hooke 1000 0 tangential linear_nohistory 0 0 damping velocity"))
+    for before, after, says in (("", "set group all diameter 1.7", "is 0.85"), ("set atom 2 diameter 0.3", "set atom 2 diameter 0.9", "it was 0.15")):
+        lmp.refused(after, text + f"{before}\nrun 5\n{after}\nrun 5 pre no\n", folder, "contacts would be missed", says)
+
+
+def test_growth_by_fix_set(folder):
+    """As by fix adapt."""
+    plain, wide = (settings() + ACROSS.format(1, 2.5, ours("* * hooke 1000 0 tangential linear_nohistory 0 0 damping velocity", style=style)) +
+                   lmp.set_in_run(1, 1, 2, diameter="1+step*0.001") + dump("out", 700) for style in ("granular/lsdcd", "granular/lsdcd 1.8"))
+    for style, check, says in ((plain, "yes", "contacts would be missed"), (plain, "no", "end the run before"), (wide, "yes", "since neighbor lists")):
+        lmp.refused(f"check {check}", style + f"neigh_modify delay 0 every 1 check {check}\nrun 700\n", folder, says)
+    for name, run in (("a cutoff", wide + "neigh_modify delay 0 every 1 check no\nrun 700\n"), ("many runs", plain + "run 700 every 20 NULL\n")):
+        lmp.run_well(run, folder)
+        # Step 700 has what was set at the end of step 699: an overlap of 1.699 - 1.5.
+        at_most(name, abs(lmp.read_dump(folder / "out")[700][1][9] / -199 - 1), 1e-10)
+
+
+LARGE_AND_SMALL = """\
+create_atoms 1 single -2 -2 0
+create_atoms 2 single -0.49 0 0
+create_atoms 2 single 0.49 0 0
+set type 1 diameter 0.1 density 1
+set type 2 diameter 1 density 1
+fix i all nve/noforce
+neigh_modify delay 0 every 1 check no
+"""
+
+
+@pytest.mark.parametrize("law", ["hooke 1000 0 tangential linear_nohistory 0 0", "jkr 1000 0 0.3 1 tangential linear_nohistory 0 0"])
+def test_large_grains_of_another_type(folder, law):
+    """Large grains that fix set gives the type of small ones still touch, also where LAMMPS makes lists by types: for jkr, and with neighbor multi."""
+    begin = lmp.head("-4 4 -4 4 -4 4", "p p p", types=2, more="processors * 1 1\n") + LARGE_AND_SMALL
+    right = "granular" if lmp.ON_HOST else "granular/lsdcd"    # 29Sep2021 ends by jkr without history
+    lmp.run_well(begin + "neighbor 0.05 bin\n" + ours("* * " + law, style=right) + "\n" + dump("theirs", 10) + "run 10\n", folder)
+    theirs = lmp.read_dump(folder / "theirs")
+    fact("they touch", abs(theirs[10][2][9]) > 0.1, str(theirs[10][2]))
+    for neighbor in ("neighbor 0.05 bin\n", "neighbor 0.05 multi\ncomm_modify mode multi vel yes\n"):
+        for ranks in (1, 2):
+            lmp.run_well(begin + neighbor + ours("* * " + law) + "\n" + lmp.set_in_run(1, 1, 3, type="1") + dump("out", 10) + "run 10\n", folder, ranks)
+            at_most(f"{neighbor.split()[2]}, {ranks} ranks", lmp.largest_difference(theirs, lmp.read_dump(folder / "out")), 1e-10)
+
+
+def test_another_type_is_no_growth(folder):
+    """Lists by radii hold a large grain of any type, where there are grains whose radii fix adapt sets, too."""
+    text = lmp.head("-4 4 -4 4 -4 4", types=2, style="sphere 1") + LARGE_AND_SMALL + """\
+group small id 1
+variable d equal 0.1
+fix grow small adapt 1 atom diameter v_d
+""" + ours("* * hooke 1000 0 tangential linear_nohistory 0 0 damping velocity") + "\n" + dump("out", 10)
+    changes = {"set": "run 5\nset group all type 1\nrun 5 pre no\n", "fix set": lmp.set_in_run(1, 1, 3, type="1") + "run 10\n"}
+    for name, change in changes.items():
+        lmp.run_well(text + change, folder)
+        at_most(f"{name}: the push", abs(lmp.read_dump(folder / "out")[10][2][9] / (-1000 * 0.02) - 1), 1e-12)
 
 
 def test_hybrid_of_laws(folder):

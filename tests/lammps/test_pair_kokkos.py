@@ -15,7 +15,7 @@ import lmp
 import stl
 from facts import at_most, fact
 from test_pair_energy import CLOUD, CLOUD_HEAD, CLOUD_LAWS, books, same
-from test_pair_granular import COLUMNS, DT, FULL, GRANULAR, IN_A_SLICE, SIDE, SLICES, dump, grains, ours, script, settings
+from test_pair_granular import ACROSS, COLUMNS, DT, FULL, GRANULAR, IN_A_SLICE, SIDE, SLICES, changed_by_fix_set, dump, grains, ours, script, settings
 
 pytestmark = lmp.needs_host
 PLAIN = ()    # flags: without Kokkos
@@ -139,6 +139,23 @@ def test_types_change(folder):
     for every in (1, 30):
         more = f"neigh_modify delay 0 every {every} check no\nneighbor 0.5 bin\nvariable type atom 1+((id+floor(step/20))%3)\nfix change all set 1 0 group all type v_type"
         as_plain(f"in a run, lists each {every}", folder, script(laws, data="three.data", more=more), ranks=(1, 2))
+
+
+def test_fix_set(folder):
+    """Radii and masses of grains on both sides of the face between processes are those of the plain pair style while fix set changes them."""
+    for every in (1, 5):
+        for newton, rigid in (("off", False), ("on", False), ("off", True), ("on", True)):
+            as_plain(f"set each {every}, newton {newton}, rigid {rigid}", folder, changed_by_fix_set(every, newton, rigid), ranks=(1, 2),
+                     lists=LISTS if newton == "off" else LISTS[:1])
+
+
+@pytest.mark.parametrize("neigh", LISTS)
+def test_growth(folder, neigh):
+    """Grains that are larger than lists hold are an error: by fix set, and where the command set makes them so before a run without setup."""
+    begin = f"package kokkos neigh {neigh} newton off\n" + settings() + ACROSS.format(1, 2.5, ours("* * hooke 1000 0 tangential linear_nohistory 0 0 damping velocity"))
+    grow = "variable d atom 1+step*0.001\nfix grow all set 1 0 group all diameter v_d\nneigh_modify delay 0 every 1 check {}\nrun 700\n"
+    for text in (begin + grow.format("yes"), begin + grow.format("no"), begin + "run 5\nset group all diameter 1.7\nrun 5 pre no\n"):
+        lmp.refused("growth", text, folder, "contacts would be missed", host=True)
 
 
 def test_restart(folder):

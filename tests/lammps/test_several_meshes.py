@@ -107,7 +107,6 @@ def test_periodic(folder):
             1e-12)
 
 
-@lmp.of_host
 def test_types_change_in_a_run(folder):
     """A grain that fix set gives another type has the law of that type in the next step, whatever lists there are, and so has one of the
     command set in a run that has no setup."""
@@ -120,9 +119,7 @@ set group all diameter 1 density 1
 pair_style zero 1.2
 pair_coeff * *
 neigh_modify delay 0 every {every} check no
-variable type atom 1+(step>=5)
-fix change all set {steps} 0 group all type v_type
-fix i all nve/noforce
+{lmp.set_in_run(steps, 1, 1, type="1+(step>=5)")}fix i all nve/noforce
 fix w all wall/lsdcd hooke 1000 NULL 0 NULL 0 1 mesh floor.stl law types 2 hooke 2000 NULL 0 NULL 0 1
 timestep 1e-4
 thermo 1
@@ -136,3 +133,29 @@ run 12
                 # Fix set acts at the end of step 5.
                 stiffness = 2000 if 5 < step <= 12 else 1000
                 at_most(f"lists each {every}, set each {steps}, step {step:g}", abs(force + stiffness * 0.01), 1e-10)
+
+
+def test_radii_change_in_a_run(folder):
+    """A grain that fix set makes wider touches the wall in the next step, whatever lists there are, and however far it was away."""
+    lmp.flat_floor(folder)
+    for every in (1, 1000):
+        for steps in (1, 5):
+            text = lmp.head("-3 3 -3 3 -1 5") + f"""\
+create_atoms 1 single 0.3 0.2 0.6
+set group all diameter 0.2 density 1
+pair_style zero 1.2
+pair_coeff * *
+neigh_modify delay 0 every {every} check no
+{lmp.set_in_run(steps, 1, 1, diameter="0.2+0.1*step")}fix i all nve/noforce
+fix w all wall/lsdcd hooke 1000 NULL 0 NULL 0 1 mesh floor.stl
+timestep 1e-4
+thermo 1
+thermo_style custom step f_w[3]
+run 16
+"""
+            rows = lmp.read_thermo(lmp.run_well(text, folder))
+            fact("all steps", len(rows) == 17, str(rows))
+            for step, force in rows[1:]:
+                # Fix set acts at the end of a step.
+                overlap = max(0, 0.1 + 0.05 * ((step - 1) // steps * steps) - 0.6)
+                at_most(f"lists each {every}, set each {steps}, step {step:g}", abs(force + 1000 * overlap), 1e-10)
