@@ -60,6 +60,12 @@ void FixWallLsdcdKokkos<DeviceType>::need_on_cpu()
 }
 
 template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::need_masses()
+{
+  atomKK->sync(Host, RMASS_MASK);
+}
+
+template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::need_positions()
 {
   atomKK->sync(execution_space, X_MASK | MASK_MASK);

@@ -41,6 +41,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void finish_step() override;
   void fill_masses() override;
   void need_on_cpu() override;
+  void need_masses() override;
   void need_positions() override;
   void need_nodes() override;
   void need_inputs() override;

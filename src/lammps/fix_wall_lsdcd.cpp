@@ -466,7 +466,7 @@ lsdcd::StepInput FixWallLsdcd::step_input(bool look)
 // `look`: may there be new spheres, or other radii, types or masses?
 void FixWallLsdcd::begin(bool look)
 {
-  if (rigid) fill_masses();
+  if (rigid && look) fill_masses();
   lsdcd::StepInput input = step_input(look);
   input.inputs = read_inputs();
   if (!node_atoms.empty()) need_nodes();
@@ -565,7 +565,7 @@ lsdcd::HostSpheres FixWallLsdcd::spheres()
 // Damping of an atom in a rigid body reads the mass of the body.
 void FixWallLsdcd::fill_masses()
 {
-  need_on_cpu();
+  need_masses();
   const int nlocal = atom->nlocal;
   damping_mass.assign(atom->rmass, atom->rmass + nlocal);
   for (Fix *fix : lsdcd::host_fixes(*modify)) {

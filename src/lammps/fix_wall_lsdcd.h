@@ -112,6 +112,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   virtual lsdcd::HostSpheres spheres();
   virtual void fill_masses();
   virtual void need_on_cpu() {}       // before atom data are read outside of a step
+  virtual void need_masses() {}       // before fill_masses() reads them
   virtual void need_positions() {}    // before check_wrapping()
   virtual void need_nodes() {}        // before atoms that are nodes are read
   virtual void need_ids() {}          // before atom IDs are read

@@ -6,6 +6,8 @@ momentum and closed forms.
 """
 
 import math
+import os
+import re
 
 import lmp
 import stl
@@ -129,6 +131,47 @@ def test_restart(folder):
                      forces(ours()) + DUMP.format(name="again", every=50) + f"run {second}\n", folder, ranks)
         at_most(f"restart on {ranks}: as without",
                 lmp.largest_difference(two, lmp.read_dump(folder / "again")), 1e-10)
+
+
+def test_masses_are_asked_for(folder):
+    """With new lists alone, and with Kokkos no step brings places of atoms to the CPU for them."""
+    said = []
+    for steps in (100, 200):
+        text = create(FEW, THROWN) + forces(ours()) + "neigh_modify delay 0 every 10 check no\n" + f"run {steps}\n"
+        out = lmp.run_well(text, folder, env={"LD_PRELOAD": os.environ["LSDCD_ASKED_OF_HOST"]})
+        masses, places = map(int, re.search(r"asked for masses (\d+), for places (\d+)", out).groups())
+        fact(f"{steps} steps: masses", masses == 1 + steps // 10, str(masses))
+        said.append(places)
+    fact("places", said[0] == said[1], str(said))
+
+
+def test_fix_set(folder):
+    """Fix set makes a grain denser that falls beside a body: its dashpot has the mass of the step before, whatever lists there are."""
+    for every in (1, 5):
+        for lists in (1, 1000):
+            text = create([("pair", (-4, -4, 0.4), "0 1 0 0")], "") + f"""\
+create_atoms 1 single 2 2 0.49
+group body molecule 1
+group free subtract all body
+set group free diameter 1 density 1
+velocity free set 0 0 -0.1
+neigh_modify delay 0 every {lists} check no exclude molecule/intra all
+pair_style zero 1.2
+pair_coeff * *
+fix stiff body rigid/small molecule
+fix move free nve/noforce
+fix wall free {ours("mesh whole.stl", "granular hooke 1000 50 tangential linear_nohistory 0 0 damping mass_velocity")}
+{lmp.set_in_run(every, 3, 3, density="1+0.1*step")}timestep 1e-4
+thermo 1
+thermo_style custom step f_wall[3]
+thermo_modify norm no format float %.17g
+run 12
+"""
+            for step, force in lmp.read_thermo(lmp.run_well(text, folder))[1:]:
+                mass = (1 + 0.1 * ((step - 1) // every * every)) * 4 / 3 * math.pi * R**3
+                push = 1000 * (0.01 + 0.1e-4 * step) + 50 * 0.1 * mass
+                # Heights of 0.5 are rounded to 1e-16, and 1000 times that is 1e-14 of the push.
+                at_most(f"set each {every}, lists each {lists}, step {step:g}", abs(force / -push - 1), 1e-12)
 
 
 def test_rebound(folder):
