@@ -49,10 +49,12 @@ LSDCD_FN void evaluate_lane(const Law &law, PairLanes &lanes, int k, Real dt, bo
     for (int m = 0; m < Law::kExtra; m++) memory.extra[m] = lanes.before[3 + m][k];
   PairForce f;
   evaluate_pair(law, p, memory, f);
+  // In a setup the limits of friction cut forces, but springs stay as they are.
   if constexpr (Law::kHistory)
-    for (int m = 0; m < 3; m++) lanes.after[m][k] = memory.shear[m];
+    for (int m = 0; m < 3; m++) lanes.after[m][k] = update ? memory.shear[m] : lanes.before[m][k];
   if constexpr (Law::kHistory && Law::kExtra > 0)
-    for (int m = 0; m < Law::kExtra; m++) lanes.after[3 + m][k] = memory.extra[m];
+    for (int m = 0; m < Law::kExtra; m++)
+      lanes.after[3 + m][k] = update ? memory.extra[m] : lanes.before[3 + m][k];
 
   set_lane(lanes.force, k, f.force());
   set_lane(lanes.torque_i, k, f.torque_i());

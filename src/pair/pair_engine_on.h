@@ -129,6 +129,7 @@ class PairEngineOn : public PairEngine {
           add(s, next);
         }
       }
+      if (width_ > 0 && !step.update) b_.for_each_in_warps(rows, KeepNumbers{s});
     }
     if (width_ > 0) {
       now_ = 1 - now_;

@@ -284,6 +284,20 @@ struct AddPairs {
   }
 };
 
+// Gives the pairs that touch what they kept a step ago: in a setup the limits of friction cut forces, but springs stay as they are.
+struct KeepNumbers {
+  PairStepView s;
+
+  template <class W>
+  LSDCD_FN void operator()(const W &warp, bool mine, std::size_t k) const
+  {
+    for_each_pair<false>(s, warp, mine, k, [&](bool is_pair, const PairOfRow &pair) {
+      if (!is_pair) return;
+      for (int n = 0; n < s.width; n++) pair.now[n] = !pair.old ? Real(0) : pair.old[n];
+    });
+  }
+};
+
 // A law of pairs, compiled for a backend.
 template <class B>
 struct PairLawOn {

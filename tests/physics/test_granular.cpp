@@ -524,6 +524,28 @@ TEST(twisting, stops_a_spinning_sphere_at_the_angle_of_its_limit_CPU)
   }
 }
 
+// A sphere is lifted until its spring exceeds the limit. Whatever the spin is then, in a setup the spring pulls back as much as the limit
+// allows.
+TEST(twisting, pulls_back_in_a_setup_whatever_the_spin_is)
+{
+  const Real mu = 0.01;
+  EngineSettings law = granular(NormalModel::hertz, kK);
+  law.law().tangential = TangentialModel::linear_history;
+  law.law().twisting = {TwistingModel::sds, {100, 0, mu}};
+  for (const Real spin : {3, 0, -3}) {
+    OneSphere s(law);
+    s.scene.set_omega(0, {0, 0, 3});
+    for (int i = 0; i < 10; i++) s.at(0.01, 1e-4);
+    ASSERT_NEAR(s.scene.torque(0).z, -100 * 10 * 1e-4 * 3, 1e-12);    // the spring alone
+    s.scene.set_omega(0, {0, 0, spin});
+    s.scene.set_x(0, kSpot + Vec3{0, 0, kRadius - 0.0005});
+    s.scene.compute(1e-4, false);
+    const Real limit = mu * kK * std::sqrt(kRadius) * std::pow(0.0005, 1.5);
+    // The height is rounded to 1e-16, 2e-13 of the overlap.
+    EXPECT_NEAR(s.scene.torque(0).z, -limit, 1e-12 * limit) << spin;
+  }
+}
+
 TEST(twisting, marshall_of_a_mindlin_contact_takes_the_stiffness_at_its_size)
 {
   // Marshall 2009, equation 32: k_t a a^2/2 with k_t a the tangential stiffness.

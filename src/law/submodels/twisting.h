@@ -32,7 +32,8 @@ struct SpringTwisting {
             Real(2) / 3 * a * mu_tangent * limit_force};
   }
 
-  // Returns the contact torque about the normal.
+  // Returns the contact torque about the normal. Beyond the limit it is against the spin; in a setup, whose spin is that of another
+  // time, the limit cuts it alone.
   template <class Memory>
   LSDCD_FN Real contact_torque(const Contact &c, const TwistCoefficients &t, Memory &m,
                                int at) const
@@ -42,7 +43,8 @@ struct SpringTwisting {
     if (c.update) angle += c.dt * rate;
     Real contact_torque = -t.k * angle - t.gamma * rate;
     if (fabs(contact_torque) > t.limit) {
-      contact_torque = rate > 0 ? -t.limit : (rate < 0 ? t.limit : 0);
+      const Real along = c.update ? rate : -contact_torque;
+      contact_torque = along > 0 ? -t.limit : (along < 0 ? t.limit : 0);
       if (t.k > 0) angle = (-contact_torque - t.gamma * rate) / t.k;
     }
     m.extra[at] = angle;
