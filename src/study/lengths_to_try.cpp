@@ -38,8 +38,16 @@ std::vector<Real> lengths_to_try(const WeldedMesh &mesh, const StepGridSettings 
   StepGridSettings nearest_one = on_cpu;
   nearest_one.nearest = 1;
   const Real of_nearest = default_length(mesh, nearest_one);
-  std::vector<Real> all = {0.5 * of_nearest, of_nearest, 2 * of_nearest, 4 * of_nearest, standard};
-  if (settings.for_gpu) all.push_back(default_length(mesh, on_cpu));
+  StepGridSettings on_gpu = settings;
+  on_gpu.for_gpu = true;
+  // Defaults of both, so that a CPU and a GPU try the same cells.
+  std::vector<Real> all = {0.5 * of_nearest,
+                           of_nearest,
+                           2 * of_nearest,
+                           4 * of_nearest,
+                           standard,
+                           default_length(mesh, on_cpu),
+                           default_length(mesh, on_gpu)};
   std::sort(all.begin(), all.end());
   for (Real length : all) {
     length = rounded(std::min(length, settings.cutoff));

@@ -3,14 +3,12 @@
 
 #include "study/tradeoff.h"
 
-#include "backend/threads.h"
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "grid/flat_grid.h"
 #include "grid/plan/grid_plan.h"
 #include "study/drift.h"
 #include "study/lengths_to_try.h"
-#include "study/sphere_query.h"
 
 #include <algorithm>
 #include <chrono>
@@ -23,7 +21,7 @@ namespace {
 // Ends a build for which there is no time.
 struct TooLate {};
 
-constexpr int kGpuFactor = 16;    // times the spheres, to fill a GPU
+constexpr int kGpuFactor = 50;    // times the spheres, to fill a GPU several times
 
 ContactLaw law_to_time()
 {
@@ -80,9 +78,9 @@ class Measuring {
           late_++;
           continue;
         }
-        const std::unique_ptr<Grids> built = build(length, nearest);
+        const std::unique_ptr<StepGrid> built = build(length, nearest);
         if (!built) continue;
-        if (sample_.n() == 0) make_sample(built->steps);
+        if (sample_.n() == 0) make_sample(*built);
         try_options(*built, {length, nearest});
       }
     }
@@ -100,26 +98,16 @@ class Measuring {
            std::chrono::duration<double>(now - start_).count() > settings_.seconds;
   }
 
-  // Grids of the same cells: steps and the search for contacts take their time, and queries the status.
-  struct Grids {
-    StepGrid steps;
-    QueryGrid queries;
-  };
-
   // The first grid is as coarse as memory asks for, as the fix makes it; `length` becomes that. Null: left out.
-  std::unique_ptr<Grids> build(Real &length, int nearest)
+  std::unique_ptr<StepGrid> build(Real &length, int nearest)
   {
     grid_settings_.length = length;
     grid_settings_.nearest = nearest;
     grid_settings_.may_coarsen = sample_.n() == 0;
     try {
-      auto grid = std::make_unique<Grids>();
-      grid->steps = build_grid(mesh_, grid_settings_, settings_.cuda);
-      if (grid->steps.length == length) {
-        grid->queries = build_grid(mesh_, QueryGridSettings{grid_settings_}, settings_.cuda);
-        return grid;
-      }
-      length = finest_ = rounded_up(grid->steps.length);
+      auto grid = std::make_unique<StepGrid>(build_grid(mesh_, grid_settings_, settings_.cuda));
+      if (grid->length == length) return grid;
+      length = finest_ = rounded_up(grid->length);
       for (Real &standard : standard_) standard = std::max(standard, length);
       grid.reset();    // before the next one takes memory
       return build(length, nearest);
@@ -132,7 +120,17 @@ class Measuring {
   }
   void leave_out(const std::string &what) { result_.left_out.push_back(what); }
 
+  // `grid`: the first one. Spheres are those near the cells of a CPU's default, whatever the device.
   void make_sample(const StepGrid &grid)
+  {
+    if (grid.length == standard_[false]) return make_sample_in(grid);
+    StepGridSettings of_cpu = grid_settings_;
+    of_cpu.length = standard_[false];
+    of_cpu.nearest = 0;
+    of_cpu.may_coarsen = true;
+    make_sample_in(build_grid(mesh_, of_cpu, settings_.cuda));
+  }
+  void make_sample_in(const StepGrid &grid)
   {
     Random random(settings_.seed);
     add_band_spheres(grid, settings_.spheres, settings_.radii, random, sample_);
@@ -143,25 +141,29 @@ class Measuring {
       engine_.corner = corner;
       reference_[corner == Corner::sum] = evaluate_sample(grid.view(), engine_, sample_);
     }
+    if (settings_.cpu) timers_[false] = make_sample_timer(false, sample_);
     if (!settings_.cuda) return;
-    for (int i = 0; i < sample_.n(); i++)
-      for (int k = 0; k < kGpuFactor; k++) gpu_sample_.add(sample_.x[i], sample_.radius[i]);
+    SphereSample many;
+    add_band_spheres(grid, kGpuFactor * settings_.spheres, settings_.radii, random, many);
+    sort_by_bins(many, 2 * grid_settings_.cutoff);
+    n_on_gpu_ = many.n();
+    timers_[true] = make_sample_timer(true, many);
   }
 
-  void try_options(const Grids &grids, const GridOptions &choice)
+  void try_options(const StepGrid &grid, const GridOptions &choice)
   {
     if (is_late()) {
       late_++;
       return;
     }
-    const std::size_t bytes = flat_bytes(grids.steps);
+    const std::size_t bytes = flat_bytes(grid);
     if (bytes > settings_.memory_budget)
       return leave_out(words_of(choice) + ": " + std::to_string(bytes >> 20) + " MB");
-    const FlatOf flat(grids.steps);
+    const FlatOf flat(grid);
     const auto view = flat.view();
-    double status_ns[2] = {};    // on a CPU, on a GPU
-    if (settings_.cpu) status_ns[false] = status_time(grids.queries, false);
-    if (settings_.cuda) status_ns[true] = status_time(grids.queries, true);
+    Spread search[2];    // on a CPU, on a GPU
+    for (bool on_cuda : {false, true})
+      if (timers_[on_cuda]) search[on_cuda] = timers_[on_cuda]->search(view, settings_.repeats);
     for (Corner corner : {Corner::blend, Corner::sum}) {
       engine_.corner = corner;
       TradeoffRow row = {};
@@ -173,45 +175,23 @@ class Measuring {
       row.bounce_drift = bounce_drift(view, engine_, starts_);
       row.roll_drift = roll_drift(view, engine_, starts_);
       for (bool on_cuda : {false, true}) {
-        if (!(on_cuda ? settings_.cuda : settings_.cpu)) continue;
-        row.status_ns = status_ns[on_cuda];
+        if (!timers_[on_cuda]) continue;
+        row.search = search[on_cuda];
         time(view, row, on_cuda);
       }
     }
   }
 
-  const SphereSample &timed(bool on_cuda) const { return on_cuda ? gpu_sample_ : sample_; }
-
-  double status_time(const QueryGrid &grid, bool on_cuda)
-  {
-    std::unique_ptr<OneThread> one_thread;
-    if (!on_cuda) one_thread = std::make_unique<OneThread>();
-    const SphereSample &sample = timed(on_cuda);
-    std::vector<Sphere> spheres;
-    for (int i = 0; i < sample.n(); i++)
-      spheres.push_back({sample.x[i].x, sample.x[i].y, sample.x[i].z, sample.radius[i]});
-    const auto query = make_sphere_query(on_cuda ? Device::cuda : Device::cpu);
-    query->set_grid(grid, mesh_);
-    query->set_spheres(spheres.data(), spheres.size());
-    QuerySettings status;
-    status.distance = false;
-    return 1e6 * query->time(status, settings_.repeats).min_ms / std::max(1, sample.n());
-  }
-
   void time(const ViewOf<StepGrid> &grid, TradeoffRow row, bool on_cuda)
   {
-    engine_.device = on_cuda ? Device::cuda : Device::cpu;
-    const auto engine = make_engine(engine_);
-    engine->set_grid(grid);
-    const SphereSample &sample = timed(on_cuda);
+    SampleTimer &timer = *timers_[on_cuda];
     row.on_cuda = on_cuda;
     row.is_default = row.choice.length == standard_[on_cuda] && row.choice.nearest == 0 &&
                      row.corner == Corner::blend;
-    row.device = engine->backend();
+    row.device = timer.device();
     row.checked = sample_.n();
-    row.spheres = sample.n();
-    row.ns_per_sphere =
-        1e9 * step_seconds(*engine, on_cuda, sample, settings_.repeats) / std::max(1, sample.n());
+    row.spheres = on_cuda ? n_on_gpu_ : sample_.n();
+    row.times = timer.steps(grid, engine_, settings_.repeats);
     result_.rows.push_back(row);
     progress_(row);
   }
@@ -224,7 +204,9 @@ class Measuring {
   EngineSettings engine_;
   Real standard_[2] = {};    // the default length on a CPU, on a GPU
   Real finest_ = 0;          // length that fits, where the default does not
-  SphereSample sample_, gpu_sample_;
+  SphereSample sample_;
+  std::unique_ptr<SampleTimer> timers_[2];    // of a CPU, of a GPU; null where it is not asked for
+  int n_on_gpu_ = 0;                          // spheres
   DriftStarts starts_;
   WallAnswers reference_[2];    // of corner blend, of corner sum
   int late_ = 0;
@@ -254,12 +236,12 @@ const TradeoffRow *fastest_below(const std::vector<TradeoffRow> &rows, Real boun
         row.error.missed_share() < bound && row.error.largest < bound)
       good.push_back(&row);
   const auto faster = [](const TradeoffRow *a, const TradeoffRow *b) {
-    return a->ns_per_sphere < b->ns_per_sphere;
+    return a->times.step.least < b->times.step.least;
   };
   const auto fastest = std::min_element(good.begin(), good.end(), faster);
   const TradeoffRow *best = nullptr;
   for (const TradeoffRow *row : good)
-    if (row->ns_per_sphere <= kNoise * (*fastest)->ns_per_sphere &&
+    if (row->times.step.least <= kNoise * (*fastest)->times.step.least &&
         (!best || row->error.largest < best->error.largest))
       best = row;
   return best;
@@ -269,8 +251,8 @@ void mark_front(std::vector<TradeoffRow> &rows)
 {
   const auto beats = [](const TradeoffRow &a, const TradeoffRow &b) {
     return a.on_cuda == b.on_cuda && a.error.mean <= b.error.mean &&
-           a.ns_per_sphere <= b.ns_per_sphere &&
-           (a.error.mean < b.error.mean || a.ns_per_sphere < b.ns_per_sphere);
+           a.times.step.least <= b.times.step.least &&
+           (a.error.mean < b.error.mean || a.times.step.least < b.times.step.least);
   };
   for (TradeoffRow &row : rows)
     row.on_front = std::none_of(rows.begin(), rows.end(),

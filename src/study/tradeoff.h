@@ -5,6 +5,7 @@
 #pragma once
 
 #include "mesh/welded_mesh.h"
+#include "study/sample_timer.h"
 #include "study/wall_answers.h"
 
 #include <cstdint>
@@ -17,9 +18,9 @@ namespace lsdcd {
 struct TradeoffSettings {
   std::vector<Real> radii;    // each as likely; the grid's cutoff is the largest
   std::size_t memory_budget = std::size_t(1) << 30;    // bytes of a grid
-  int spheres = 20000;     // spheres for errors and times, more of them on a GPU
+  int spheres = 20000;     // spheres for errors and times; 50 times as many for times on a GPU
   int moving = 32;         // bouncing, and rolling
-  int repeats = 5;         // of a timed step
+  int repeats = 5;         // of what is timed
   double seconds = 120;    // seconds after which no more settings are tried
   bool cpu = true, cuda = false;
   std::uint64_t seed = 1;
@@ -38,13 +39,15 @@ struct TradeoffRow {
   std::string device;
   AnswerError error;    // against complete lists with the same corner rule
   Real bounce_drift, roll_drift;
-  double ns_per_sphere;    // of a step: it searches cells with nearest N, and reads lists with all
-  double status_ns;        // of a status query, which searches cells with both kinds of lists
+  Spread
+      search;    // of the cells' lists, with nothing kept between steps; the same with both corner rules
+  StepTimes
+      times;    // of steps: with complete lists they keep lists of spheres, with nearest N they search cells
   std::size_t bytes;       // of the grid
   int checked, spheres;    // for errors, and timed
   bool is_default = false;
   bool on_front = false;    // no setting on the same device is as good in one of mean force
-                            // error and time, and better in the other
+                            // error and least time of a step, and better in the other
 };
 
 struct Tradeoff {
@@ -56,8 +59,8 @@ struct Tradeoff {
 constexpr int kTriedNearest[] = {0, 1, 2, 3, 4, 8};
 
 // Cells of half to four times the default length, all lists, both corner rules, each device: spheres
-// in the order in which LAMMPS sorts them, uniform in the band within the cutoff. Hooke with springs at
-// rest for errors and times. The default comes first. Errors and drifts are computed once, on the CPU:
+// in the order in which LAMMPS sorts them, uniform in the band within the cutoff, the same for all settings and devices.
+// Hooke with springs, at rest for errors. The default comes first. Errors and drifts are computed once, on the CPU:
 // those of a GPU are the same bits.
 Tradeoff measure_tradeoff(const WeldedMesh &mesh, const TradeoffSettings &settings,
                           const std::function<void(const TradeoffRow &)> &progress);

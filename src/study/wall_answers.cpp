@@ -3,13 +3,11 @@
 
 #include "study/wall_answers.h"
 
-#include "backend/threads.h"
 #include "engine/step/narrow_phase.h"
 #include "engine/step/step_job.h"
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <memory>
 
 namespace lsdcd {
@@ -57,21 +55,6 @@ bool append_contacts(const GridView &grid, const SearchSettings &search, const V
     contacts.push_back({-t.set.distance[i] * t.set.normal[i], radius - t.set.distance[i],
                         t.weight[i] * (radius - t.set.distance[i]) >= kGrazing * radius});
   return true;
-}
-
-// Changes 32 MB, line by line.
-void fill_caches()
-{
-  static std::vector<std::int64_t> other(std::size_t(4) << 20);
-  for (std::size_t i = 0; i < other.size(); i += 8) other[i]++;
-}
-
-// Time of this thread's processor, or wall-clock time if it waits for a GPU.
-double seconds_now(bool waits)
-{
-  timespec t;
-  clock_gettime(waits ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &t);
-  return t.tv_sec + 1e-9 * t.tv_nsec;
 }
 
 }    // namespace
@@ -139,24 +122,6 @@ AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
   out.largest = *std::max_element(errors.begin(), errors.end());
   out.mean = sum_forces > 0 ? sum_errors / sum_forces : 0;
   return out;
-}
-
-double step_seconds(WallEngine &engine, bool on_cuda, const SphereSample &sample, int repeats)
-{
-  // The CPU's share of a GPU step is done by all threads.
-  std::unique_ptr<OneThread> one_thread;
-  if (!on_cuda) one_thread = std::make_unique<OneThread>();
-  AtRest at_rest(sample);
-  engine.choose(at_rest.spheres, 0);
-  double quickest = 0;
-  for (int r = -1; r < repeats; r++) {    // once to warm up
-    if (r >= 0) fill_caches();
-    const double start = seconds_now(on_cuda);
-    engine.step(at_rest.spheres, {});
-    const double seconds = seconds_now(on_cuda) - start;
-    if (r == 0 || (r > 0 && seconds < quickest)) quickest = seconds;
-  }
-  return quickest;
 }
 
 }    // namespace lsdcd

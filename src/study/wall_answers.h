@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The answers of a setting for a sample of spheres, their errors, and their cost.
+// The answers of a setting for a sample of spheres, and their errors.
 #pragma once
 
 #include "engine/engine.h"
@@ -48,11 +48,5 @@ struct AnswerError {
 
 AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
                     const SphereSample &sample, Real stiffness);
-
-// Seconds of a step (start and collect) on the sample, the quickest of `repeats`: of one
-// core, however busy the others are, or on the clock where the engine is a GPU's. Before
-// each the caches of the CPU are filled with something else, as the rest of a simulation
-// step does; those of a GPU are not.
-double step_seconds(WallEngine &engine, bool on_cuda, const SphereSample &sample, int repeats);
 
 }    // namespace lsdcd

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Draws the rows of `lsdcd tradeoff`: errors against time and memory.
+"""Draws the rows of `lsdcd tradeoff`: errors against the time of a search and of a step, and against memory.
 
 usage: plot_tradeoff.py ROWS.csv PICTURE.png
 
@@ -51,8 +51,12 @@ def panel(axes, rows, key, scale, label):
     axes.grid(alpha=0.3)
 
 
+PANELS = (("search_ns", 1, "a search that keeps nothing, ns a sphere"), ("step_ns", 1, "a step with what it keeps, ns a sphere"),
+          ("bytes", 1e-6, "memory of the grid, MB"))
+
+
 def draw(rows, picture):
-    """Error against time on the CPU and on a GPU; where one of them was measured, against time and memory."""
+    """A row of panels for the CPU and for a GPU, as far as they were measured."""
     try:
         import matplotlib
         matplotlib.use("Agg")
@@ -60,21 +64,20 @@ def draw(rows, picture):
     except ImportError:
         sys.exit("plot_tradeoff.py: matplotlib is missing (Debian: python3-matplotlib)")
     kinds = [k for k in ("cpu", "cuda") if any(r["kind"] == k for r in rows)]
-    figure, axes = plt.subplots(1, 2, figsize=(11, 5.6), sharey=True)
-    for at, kind in zip(axes, kinds):
+    height = 4.6 * len(kinds) + 1
+    figure, all_axes = plt.subplots(len(kinds), len(PANELS), figsize=(15, height), sharey=True, squeeze=False)
+    for axes, kind in zip(all_axes, kinds):
         its = [r for r in rows if r["kind"] == kind]
-        panel(at, its, "ns_per_sphere", 1, "time of a step per sphere near the wall, ns")
-        at.set_title({"cpu": "one core of the CPU", "cuda": its[0]["device"].replace("CUDA, ", "")}[kind], fontsize=13)
-    if len(kinds) == 1:
-        panel(axes[1], [r for r in rows if r["kind"] == kinds[0]], "bytes", 1e-6, "memory of the grid, MB")
-        axes[1].set_title("memory", fontsize=13)
-    axes[0].set_ylabel("mean error of a force / mean force", fontsize=14)
-    axes[0].plot([], [], "o", color="#999999", markersize=4, linestyle="none", label="all settings")
-    first = rows[0]
-    figure.suptitle(f"{first['mesh']}, {first['triangles']} triangles, radii "
-                    f"{first['least_radius']} to {first['largest_radius']}", fontsize=13)
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=4, fontsize=14)
-    figure.tight_layout(rect=(0, 0.12, 1, 1))
+        for at, (key, scale, label) in zip(axes, PANELS):
+            panel(at, its, key, scale, label)
+        axes[0].set_ylabel("mean error of a force / mean force", fontsize=14)
+        axes[1].set_title({"cpu": "one core of the CPU", "cuda": its[0]["device"].replace("CUDA, ", "")}[kind], fontsize=13)
+    first = all_axes[0][0]
+    first.plot([], [], "o", color="#999999", markersize=4, linestyle="none", label="all settings")
+    figure.suptitle(f"{rows[0]['mesh']}, {rows[0]['triangles']} triangles, radii "
+                    f"{rows[0]['least_radius']} to {rows[0]['largest_radius']}", fontsize=13)
+    figure.legend(*first.get_legend_handles_labels(), loc="lower center", ncol=5, fontsize=14)
+    figure.tight_layout(rect=(0, 0.6 / height, 1, 1))
     figure.savefig(picture + ".part", dpi=100, format="png")
     os.replace(picture + ".part", picture)
 
@@ -83,7 +86,7 @@ def read(path):
     with open(path, newline="") as f:
         rows = list(csv.DictReader(f))
     for row in rows:
-        for key in ("ns_per_sphere", "status_ns", "bytes", "force_mean"):
+        for key in ("search_ns", "step_ns", "bytes", "force_mean"):
             row[key] = float(row[key])
     return rows
 

@@ -48,14 +48,25 @@ const char *const kHelp =
     "                  pulled along its face's normal. One that leaves the wall counts with what\n"
     "                  it had gained or lost until then; one that goes through it 1\n"
     "  roll_drift      the same for spheres that roll without slip over five radii\n"
-    "  ns_per_sphere   of a step, on one core with caches filled by something else; or on the GPU. "
-    "It\n"
-    "                  searches cells with nearest N, and reads lists made before with all\n"
-    "  status_ns       of asking whether a sphere touches, which searches cells with either\n"
+    "  search_ns       of finding the contacts of a sphere in the list of its cell, with nothing\n"
+    "                  kept between steps. Nanoseconds a sphere, the smallest of --repeats; the\n"
+    "                  largest is search_most_ns\n"
+    "  step_ns         of a step with what a setting keeps: with all a list for each sphere, "
+    "which\n"
+    "                  steps read; with nearest N which spheres are near, whose cells are "
+    "searched.\n"
+    "                  Spheres move by up to 0.2 radii before they are chosen again, after 336\n"
+    "                  steps, and the share of that is in it. The largest is step_most_ns\n"
+    "  choice_ns       of choosing near spheres once, with their lists\n"
+    "  listed          entries in the list of a sphere in the mean; 0: no list is kept\n"
     "  bytes           of the grid\n"
-    "  front           1 where no setting on the device is better in time or mean force\n"
+    "  kept_bytes      of the engine; on the GPU its copy of the grid is in it\n"
+    "  front           1 where no setting on the device is better in time of a step or mean force\n"
     "                  error and as good in the other\n"
     "  default         1 for what the fix does by itself\n"
+    "On a core times are those of its thread, with caches filled by something else before each; "
+    "on\n"
+    "the GPU those of kernels alone, with the spheres in its memory.\n"
     "--below E takes nearest N only where all its answers are certified, and of settings within a\n"
     "tenth of the fastest the one with the smallest error.";
 
@@ -87,8 +98,10 @@ std::string csv_of(const Tradeoff &tradeoff, const WeldedMesh &mesh,
   }
   std::string out =
       "mesh,triangles,least_radius,largest_radius,kind,device,grid,nearest,corner,missed,"
-      "uncertified,force_median,force_largest,force_mean,bounce_drift,roll_drift,ns_per_sphere,"
-      "status_ns,bytes,front,default,contacts,spheres,moving,repeats,order,seed,commit\n";
+      "uncertified,force_median,force_largest,force_mean,bounce_drift,roll_drift,search_ns,"
+      "search_most_ns,step_ns,step_most_ns,choice_ns,listed,bytes,kept_bytes,front,default,"
+      "contacts,"
+      "spheres,moving,repeats,order,seed,commit\n";
   const auto number = [](double value) { return formatted("%.5g", value); };
   const std::string name = std::filesystem::path(mesh.source).filename().string();
   for (const TradeoffRow &r : tradeoff.rows) {
@@ -108,9 +121,14 @@ std::string csv_of(const Tradeoff &tradeoff, const WeldedMesh &mesh,
                                              number(r.error.mean),
                                              number(r.bounce_drift),
                                              number(r.roll_drift),
-                                             number(r.ns_per_sphere),
-                                             number(r.status_ns),
+                                             number(r.search.least),
+                                             number(r.search.most),
+                                             number(r.times.step.least),
+                                             number(r.times.step.most),
+                                             number(r.times.choice.least),
+                                             number(r.times.listed),
                                              std::to_string(r.bytes),
+                                             std::to_string(r.times.kept_bytes),
                                              r.on_front ? "1" : "0",
                                              r.is_default ? "1" : "0",
                                              std::to_string(r.error.contacts),
@@ -175,13 +193,13 @@ void tradeoff(TradeoffOptions &o)
   AtomicFile file(o.csv);    // now, rather than fail when all is done
   std::printf("%s, %s\n", o.file.c_str(), counted(mesh.faces.size(), "triangle").c_str());
   std::printf("      grid  nearest  corner  device   missed %%  force error: mean  "
-              "largest  bounce    roll  ns/sphere   status        MB\n");
+              "largest  bounce    roll  search, ns  step, ns        MB\n");
   const Tradeoff result = measure_tradeoff(mesh, o.settings, [](const TradeoffRow &r) {
-    std::printf("%10.4g  %-7s  %-6s  %-6s  %8.3g  %17.2g  %7.2g  %6.1g  %6.1g  %9.1f  %7.1f  "
+    std::printf("%10.4g  %-7s  %-6s  %-6s  %8.3g  %17.2g  %7.2g  %6.1g  %6.1g  %10.3g  %8.3g  "
                 "%8.3g%s\n",
                 r.choice.length, nearest_word(r.choice).c_str(), word_of(r.corner, kCornerWords),
                 r.on_cuda ? "cuda" : "cpu", 100 * r.error.missed_share(), r.error.mean,
-                r.error.largest, r.bounce_drift, r.roll_drift, r.ns_per_sphere, r.status_ns,
+                r.error.largest, r.bounce_drift, r.roll_drift, r.search.least, r.times.step.least,
                 r.bytes / 1e6, r.is_default ? "  default" : "");
     std::fflush(stdout);
   });
@@ -249,13 +267,13 @@ void add_tradeoff_command(Command &program)
       .check(above_zero);
   command
       .option("--spheres", o->settings.spheres,
-              "spheres beside the wall, for errors and times (16 times as many on a GPU)")
+              "spheres beside the wall, for errors and times (50 times as many for times on a GPU)")
       .shows_default()
       .range(1, 10000000);
   command.option("--moving", o->settings.moving, "spheres that bounce, and that roll")
       .shows_default()
       .range(1, 100000);
-  command.option("--repeats", o->settings.repeats, "repeats of a timed step; the quickest counts")
+  command.option("--repeats", o->settings.repeats, "runs that are timed, after one to warm up")
       .shows_default()
       .range(1, 1000);
   command.option("--seed", o->settings.seed, "seed of positions and radii").shows_default();

@@ -4,7 +4,9 @@
 // The gain and cost of settings: the front, the moving spheres, the rows.
 #include "study/tradeoff.h"
 
+#include "grid/flat_grid.h"
 #include "study/drift.h"
+#include "study/sample_timer.h"
 #include "support/device.h"
 #include "support/meshes.h"
 
@@ -20,7 +22,7 @@ TradeoffRow row_of(Real mean, double ns, bool on_cuda = false)
 {
   TradeoffRow row = {};
   row.error.mean = mean;
-  row.ns_per_sphere = ns;
+  row.times.step.add(ns);
   row.on_cuda = on_cuda;
   return row;
 }
@@ -52,7 +54,7 @@ TradeoffRow setting(int nearest, Real largest, double ns)
   row.choice = {0.5, nearest};
   row.error.contacts = 1000;
   row.error.largest = largest;
-  row.ns_per_sphere = ns;
+  row.times.step.add(ns);
   return row;
 }
 
@@ -243,6 +245,30 @@ TEST(drift, is_one_for_spheres_that_fall_through_the_wall)
   EXPECT_EQ(roll_drift(blind.view(), EngineSettings(), floor.starts(1, 20)), 1);
 }
 
+// ---- times -----------------------------------------------------------------------------
+
+TEST(spread, has_the_smallest_and_the_largest)
+{
+  Spread spread;
+  for (double ns : {3., 2., 5., 4.}) spread.add(ns);
+  EXPECT_EQ(spread.least, 2);
+  EXPECT_EQ(spread.most, 5);
+}
+
+// Spheres of radius 1 in rows above a plane of two triangles, as far from its rim as they go: at most 0.2.
+TEST(sample_timer, keeps_a_list_of_one_entry_over_one_triangle)
+{
+  const Wall floor(floor_mesh(1, 30), 1);
+  SphereSample sample;
+  for (int i = 0; i < 20; i++)
+    for (int j = 0; j < 20; j++) sample.add({2 + 0.1 * i, -4 + 0.1 * j, 0.9}, 1);
+  const FlatOf flat(floor.grid);
+  const auto timer = make_sample_timer(test_on_cuda(), sample);
+  EngineSettings settings;
+  settings.law().k_normal = 1;
+  EXPECT_EQ(timer->steps(flat.view(), settings, 1).listed, 1);
+}
+
 // ---- rows ------------------------------------------------------------------------------
 
 Tradeoff small(double seconds = 1e9, std::size_t memory = std::size_t(1) << 30)
@@ -271,8 +297,13 @@ TEST(tradeoff, has_a_row_for_every_setting_the_default_first_RELEASE)
     EXPECT_TRUE(
         seen.insert({r.choice.length, r.choice.nearest, static_cast<int>(r.corner)}).second);
     EXPECT_EQ(r.on_cuda, test_on_cuda());
-    EXPECT_GT(r.ns_per_sphere, 0);
-    EXPECT_GT(r.status_ns, 0);
+    for (const Spread &time : {r.search, r.times.step, r.times.choice}) {
+      EXPECT_GT(time.least, 0);
+      EXPECT_GE(time.most, time.least);
+    }
+    // Complete lists are kept by sphere, those of the nearest triangles are not.
+    EXPECT_EQ(r.times.listed > 0, r.choice.nearest == 0);
+    EXPECT_GT(r.times.kept_bytes, 0u);
     EXPECT_GT(r.error.contacts, 200);
     if (r.choice.nearest == 0) {
       EXPECT_EQ(r.error.missed, 0);
