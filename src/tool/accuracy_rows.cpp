@@ -6,6 +6,7 @@
 #include "tool/csv_file.h"
 
 #include <cstdio>
+#include <ctime>
 
 namespace lsdcd {
 
@@ -18,6 +19,15 @@ std::string number(const char *format, double value)
   return text;
 }
 
+// Returns the day, in UTC, on which a row is made.
+std::string today()
+{
+  const std::time_t now = std::time(nullptr);
+  char text[16];
+  std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
+  return text;
+}
+
 // Empty where there is nothing.
 std::string known(const char *format, double value)
 {
@@ -25,7 +35,7 @@ std::string known(const char *format, double value)
 }
 
 const char *kColumns =
-    "table,note,device,commit,shape,triangles,cube,largest_radius,spheres,seed,order,inside,"
+    "table,note,device,commit,date,shape,triangles,cube,largest_radius,spheres,seed,order,inside,"
     "length,lists,accuracy,paper_accuracy,best,never,error_percent,paper_error_percent,touching,"
     "missed,false,largest_overlap_error,median_force_error,mean_force_error,certified,entries,"
     "build_s,paper_build_s,grid_bytes,query_ms,query_min_ms,query_max_ms,repeats,paper_query_ms,"
@@ -63,6 +73,7 @@ void AccuracyRows::add(const RowContext &c, const StudyRow &r, const PaperColumn
   add(csv_quoted(note));
   add(csv_quoted(r.device));
   add(csv_quoted(c.commit));
+  add(today());
   add(csv_quoted(c.shape));
   add(std::to_string(r.triangles));
   add(known("%.10g", c.cube > 0 ? c.cube : -1));
