@@ -8,6 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
+#if XXH_VERSION_NUMBER < 800
+#error "xxHash 0.8 or later is needed: earlier ones have no stable XXH3"
+#endif
+
 namespace lsdcd {
 
 namespace {
