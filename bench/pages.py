@@ -284,17 +284,130 @@ def settings(rows):
     return table(lines, heads, cells) + "\n\n" + told
 
 
+# ---- tables of paper.md ----------------------------------------------------------------------
+
+def of_study(rows, name):
+    return [r for r in rows if r["table"] == name and r["order"] == "random"]
+
+
+def milliseconds(row):
+    return number(row["query_ms"], 3 if float(row["query_ms"]) >= 100 else 2) if row else ""
+
+
+def when(rows):
+    """Where and when rows were measured; of several commits and days, all of them."""
+    days = dict.fromkeys(f"{r['commit']}, {r['date']}" for r in rows)
+    return f"{rows[0]['device'].replace('CUDA, ', '')} ({'; '.join(days)})"
+
+
+def paper_table2(cpu, cuda):
+    """The paper's Table 2 beside ours."""
+    ours, on_gpu = (of_study(rows, "table2") for rows in (cpu, cuda))
+
+    def cells(r):
+        every = r["lists"] == "every triangle"
+        card = find(on_gpu, length=r["length"], lists=r["lists"])
+        return ["all, each tried" if every else "all that count" if r["lists"] == "complete" else r["lists"], r["length"],
+                r["paper_accuracy"], f"{float(r['accuracy']):.6f}", short(r["paper_error_percent"], 3), short(r["error_percent"], 2),
+                count(r["missed"]), number(r["paper_query_ms"]), milliseconds(r), milliseconds(card)]
+
+    heads = ["triangles of a cell", "cell", "accuracy: paper", "ours", "error, %: paper", "ours", "ours missed", "ms: paper, K40", "ours, CPU", "ours, GPU"]
+    one = ours[0]
+    told = (f"* {count(one['spheres'])} spheres, of which {count(one['touching'])} touch; a cylinder of {count(one['triangles'])} triangles. "
+            f"CPU: {when(ours)}. GPU: {when(on_gpu)}. The best accuracy, that of every triangle tried, is 0.994025 in the paper and {float(one['best']):.6f} here; "
+            f"a program that never finds a contact has {float(one['never']):.6f}.")
+    return table(sorted(ours, key=lambda r: (r["lists"] == "every triangle", r["lists"], float(r["length"]))), heads, cells) + "\n\n" + told
+
+
+def paper_figures(cpu, cuda):
+    """Figures 9 to 12 in numbers: the paper's, of its text and its Table 2, beside ours."""
+    many, lengths = ({device: of_study(rows, name) for device, rows in (("cpu", cpu), ("cuda", cuda))} for name in ("figure9", "figure10"))
+
+    def of_spheres(r):
+        theirs, core = number(r["paper_query_ms"]), find(many["cpu"], spheres=r["spheres"])
+        return [count(r["spheres"]), short(r["paper_accuracy"], 6), f"{float(r['accuracy']):.6f}", theirs, milliseconds(core), milliseconds(r)]
+
+    def of_length(r):
+        core, theirs = find(lengths["cpu"], length=r["length"]), find(of_study(cuda, "table2"), length=r["length"], lists="2")
+        return [r["length"], short(r["paper_accuracy"], 6), f"{float(r['accuracy']):.6f}", short(r["paper_build_s"]), short(core["build_s"], 2),
+                short(r["build_s"], 2), number(theirs["paper_query_ms"]) if theirs else "", milliseconds(core), milliseconds(r)]
+
+    first = table(many["cuda"], ["spheres (figure 9)", "accuracy: paper", "ours", "ms: paper, K40", "ours, CPU", "ours, GPU"], of_spheres)
+    second = table(lengths["cuda"], ["cell (figures 10 to 12)", "accuracy: paper", "ours", "grid, s: paper, K40 and GTX480", "ours, CPU", "ours, GPU",
+                                     "ms: paper, K40", "ours, CPU", "ours, GPU"], of_length)
+    told = f"* CPU: {when(many['cpu'] + lengths['cpu'])}. GPU: {when(many['cuda'] + lengths['cuda'])}."
+    return f"{first}\n\n{second}\n\n{told}"
+
+
+def paper_formula5(rows):
+    """What the paper's formula (5) makes of contacts, on meshes with and without obtuse triangles, which the note names."""
+    its = [r for r in of_study(rows, "formula5") if r["inside"] == "formula (5)"]
+
+    def cells(name):
+        two, every = (find(its, note=name, lists=lists) for lists in ("2", "every triangle"))
+        return [name.replace(", formula (5)", "").replace("cylinder, ", ""), count(two["touching"]),
+                *[count(r[what]) for r in (two, every) for what in ("missed", "false")]]
+
+    heads = ["mesh", "contacts", "two triangles: missed", "found where there is none", "each triangle tried: missed", "found where there is none"]
+    return table(dict.fromkeys(r["note"] for r in its), heads, cells) + f"\n\n* {count(its[0]['spheres'])} spheres, {when(its)}."
+
+
+def of_radius(row):
+    """The length of a cell of a trade-off."""
+    return f"{float(row['grid']) / float(row['largest_radius']):.2g} R"
+
+
+def paper_misses(cuda, vessel):
+    """Of the contacts that an exact search finds, how many N triangles miss: on the paper's cylinder, on finer ones, and on a vessel; and the time of
+    the exact search over that of two triangles."""
+    def share(missed, n):
+        return "none" if missed == 0 else f"{missed} of {count(n)}" if missed < 100 else f"{100 * missed / int(n):.2g} %"
+
+    kinds = ("1", "2", "3", "8")
+    lines, radius = [], float(of_study(cuda, "mesh")[0]["largest_radius"])
+    for table_name, length in (("table2", "0.2"), ("mesh", "0.4")):
+        rows = [r for r in of_study(cuda, table_name) if r["length"] == length]
+        for triangles in dict.fromkeys(r["triangles"] for r in rows):
+            its = {r["lists"]: r for r in rows if r["triangles"] == triangles}
+            every = its["complete"]
+            name = "the paper's cylinder" if int(triangles) < 1000 else "a cylinder"
+            lines.append([f"{name}, cells of {float(length) / radius:.2g} R", count(triangles),
+                          *[share(int(its[n]["missed"]), its[n]["touching"]) if n in its else "" for n in kinds], milliseconds(its["2"]), milliseconds(every)])
+    for grid in sorted({r["grid"] for r in vessel}, key=float):
+        its = {n: find(vessel, grid=grid, corner="blend", nearest=n) for n in kinds}
+        lines.append([f"a [vessel](../examples/vessel), cells of {of_radius(its['1'])}", count(its["1"]["triangles"]),
+                      *[share(round(float(r["missed"]) * int(r["contacts"])), r["contacts"]) for r in its.values()], *["[accuracy](accuracy.md)"] * 2])
+    heads = ["wall", "triangles", *[f"missed with {n}" for n in kinds], "search, ms: 2", "all"]
+    mesh = of_study(cuda, "table2") + of_study(cuda, "mesh")
+    return table(lines, heads, lambda line: line) + f"\n\n* R is the largest radius. {count(mesh[0]['spheres'])} spheres at the cylinders, {when(mesh)}."
+
+
+def two_triangles(cuda, vessel):
+    """README's sentence on what the paper's default misses."""
+    of_paper = find(of_study(cuda, "table2"), length="0.2", lists="2")
+    fine, *_, coarse = sorted((r for r in vessel if r["corner"] == "blend" and r["nearest"] == "2"), key=lambda r: float(r["grid"]))
+    missed = [f"{100 * float(r['missed']):.2g} % in cells of {of_radius(r)}" for r in (fine, coarse)]
+    return (f"The paper's default is two triangles a cell (`nearest 2`). On its own cylinder of {count(of_paper['triangles'])} triangles they miss {of_paper['missed']} of "
+            f"{count(of_paper['touching'])} contacts;\non a [vessel](examples/vessel) of {count(fine['triangles'])} triangles and grains of the radius R they miss {missed[0]}, and {missed[1]} "
+            "([more](doc/paper.md#what-two-triangles-miss)).\nLSDCD's default misses none.")
+
+
 # ---- pages ---------------------------------------------------------------------------------
 
 def tables():
     """Page: name of the markers: table."""
     cpu, cuda = (rows_of(f"performance_{device}.csv") for device in DEVICES)
     kokkos_cpu, kokkos_cuda = (rows_of(f"kokkos_{device}.csv") for device in DEVICES)
+    vessel_cpu = rows_of("tradeoff_vessel_cpu.csv")
+    study_cpu, study_cuda = (rows_of(f"accuracy_{device}.csv") for device in DEVICES)
     return {
         "performance.md": {"hours": hours(kokkos_cpu, kokkos_cuda), "cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda)},
         "notes/performance.md": {"scale": scale(rows_of("scale_cuda.csv")), "liggghts": liggghts(rows_of("liggghts_cpu.csv"))},
         "library-queries.md": {"point-costs": point_costs(cpu)},
         "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES), rows_of("effects_pairs_cpu.csv", ";"))},
+        "../README.md": {"two-triangles": two_triangles(study_cuda, vessel_cpu)},
+        "paper.md": {"misses": paper_misses(study_cuda, vessel_cpu), "table-2": paper_table2(study_cpu, study_cuda),
+                     "figures": paper_figures(study_cpu, study_cuda), "formula-5": paper_formula5(study_cpu)},
         "accuracy.md": {"settings": settings([r for d in DEVICES for r in rows_of(f"tradeoff_vessel_{d}.csv")])},
     }
 

@@ -7,7 +7,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt    # noqa: E402
 
-from pages import DEVICES, IMAGES, facts, find, rows_of    # noqa: E402
+from pages import DEVICES, IMAGES, facts, find, of_study, rows_of    # noqa: E402
 
 # By colour and by marker, so that a print in grey or a colour-blind reader tells them apart.
 STYLES = {"cpu": dict(color="#0072B2", marker="o"), "cuda": dict(color="#D55E00", marker="^")}
@@ -179,11 +179,7 @@ def draw_long_grain(rows):
     write_image(figure, "long_grain.png", dpi=90)
 
 
-# ---- notes/paper.md ------------------------------------------------------------------------------
-
-def of_study(rows, name):
-    return [r for r in rows if r["table"] == name and r["order"] == "random"]
-
+# ---- paper.md ------------------------------------------------------------------------------------
 
 def draw_question(rows, steps):
     """Errors against the time of a query: those of the paper and ours, and what shorter lists miss. Below the break of an
@@ -241,12 +237,51 @@ def draw_question(rows, steps):
     write_image(figure, "paper_question.png", dpi=90)
 
 
+def draw_figures(rows_by_device):
+    """The paper's figures 9 to 12: its numbers, as far as its text and its Table 2 have them, in black beside ours. Two triangles a cell."""
+    figure, axes = plt.subplots(2, 2, figsize=(12, 7.6))
+    paper = dict(color="black", marker="s", fillstyle="none", linestyle="none", markersize=9)
+    table2 = [r for r in of_study(rows_by_device["cuda"], "table2") if r["lists"] == "2"]
+
+    def curve(axis, name, x, y):
+        for device, rows in rows_by_device.items():
+            its = of_study(rows, name)
+            axis.plot([float(r[x]) for r in its], [float(r[y]) for r in its], label="LSDCD, " + label(its).replace("NVIDIA ", ""), **STYLES[device])
+
+    def theirs(axis, rows, x, y, name):
+        points = [(float(r[x]), float(r[y])) for r in rows if r[y]]
+        axis.plot(*zip(*points), label=name, **paper)
+
+    spheres = of_study(rows_by_device["cuda"], "figure9")
+    lengths = of_study(rows_by_device["cuda"], "figure10")
+    curve(axes[0][0], "figure9", "spheres", "query_ms")
+    theirs(axes[0][0], spheres, "spheres", "paper_query_ms", "the paper, Tesla K40")
+    axes[0][0].set(xscale="log", yscale="log", xlabel="number of spheres", ylabel="time of a query, ms", title="Figure 9, cells of 0.2")
+    axes[0][1].plot([float(r["length"]) for r in lengths], [float(r["accuracy"]) for r in lengths], label="LSDCD, any device", **STYLES["cuda"])
+    theirs(axes[0][1], lengths, "length", "paper_accuracy", "the paper")
+    for best, words, colour in ((lengths[0]["best"], "every triangle, LSDCD", STYLES["cuda"]["color"]), ("0.994025", "every triangle, the paper", "black")):
+        axes[0][1].axhline(float(best), color=colour, linewidth=1, linestyle=":", label=words)
+    axes[0][1].set(xlabel="length of a cell", ylabel="accuracy (formula 6)", title="Figure 10, left: accuracy")
+    curve(axes[1][0], "figure10", "length", "build_s")
+    theirs(axes[1][0], lengths, "length", "paper_build_s", "the paper, K40 and GTX480")
+    axes[1][0].set(yscale="log", ylim=(1e-4, 30), xlabel="length of a cell", ylabel="time to build the grid, s", title="Figures 10, right, and 11: the grid")
+    curve(axes[1][1], "figure10", "length", "query_ms")
+    theirs(axes[1][1], table2, "length", "paper_query_ms", "the paper, Tesla K40")
+    axes[1][1].set(yscale="log", ylim=(0.05, 3e4), xlabel="length of a cell", ylabel="time of a query, ms", title="Figure 12: 10 000 000 spheres")
+    for axis in axes.flat:
+        legible(axis)
+        axis.legend(fontsize=12, loc="lower left" if axis is axes[1][0] else "best")
+    figure.tight_layout()
+    write_image(figure, "paper_figures.png", dpi=90)
+
+
 def draw_all():
     draw_mesh_size(both("mesh-size"))
     draw_effects(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))
     # A step that reads lists of the wall, on the same spheres, nothing copied.
     step = find(rows_of("performance_cuda.csv"), case="hertz/history, in place", triangles=10000, spheres=10000000, order="random")
     draw_question(rows_of("accuracy_cuda.csv"), step)
+    draw_figures(both("accuracy"))
     draw_accuracy(both("tradeoff_vessel"))
     draw_hard_curves(rows_of("hard_curves_cpu.csv"))
     draw_long_grain(rows_of("hard_curves_cpu.csv"))

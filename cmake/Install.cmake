@@ -13,9 +13,14 @@ install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc COMPONENT data
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT data
   PATTERN __pycache__ EXCLUDE PATTERN "log.*" EXCLUDE PATTERN "*.dump" EXCLUDE)
 
-# What the pages link to beside one another: the tests of the hard cases, and the materials.
-file(READ ${PROJECT_SOURCE_DIR}/doc/hard_cases.md page)
-string(REGEX MATCHALL "tests/[a-z_/]+\\.(cpp|py)" linked "${page}")
+# What the pages link to beside one another: sources that they name, the tests of the hard cases, and the materials.
+set(linked "")
+foreach(page design hard_cases paper)
+  file(READ ${PROJECT_SOURCE_DIR}/doc/${page}.md text)
+  string(REGEX MATCHALL "\\.\\./(src|tests)/[a-z_0-9/]+\\.(cpp|h|py)" names "${text}")
+  list(APPEND linked ${names})
+endforeach()
+list(TRANSFORM linked REPLACE "^.*\\.\\./" "")
 list(REMOVE_DUPLICATES linked)
 foreach(file ${linked})
   get_filename_component(folder ${file} DIRECTORY)

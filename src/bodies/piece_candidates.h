@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The primitives of the wall that may meet a piece of the body.
+// The primitives of the wall that may meet a piece of the body (section 3.7 of the paper).
 //
 // Why no pair is missed. A pair meets at a point x, which is in a piece of the body's triangle, so
 // within the piece's radius of its centre c. The list of c's cell holds every triangle of the wall

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A body's triangles in pieces, by longest-edge bisection.
+// A body's triangles in pieces, by longest-edge bisection (section 3.7 of the paper).
 #pragma once
 
 #include "geometry/triangles_meet.h"

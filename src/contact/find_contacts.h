@@ -32,7 +32,8 @@ LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
   }
 }
 
-// Returns the radius up to which the set is known to be complete.
+// Finds contacts on the N primitives of a nearest list: the paper's method of N triangles (section 3.6). Returns the radius
+// up to which the set is known to be complete.
 template <int kMost>
 LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
                               ContactSet<kMost> &set)

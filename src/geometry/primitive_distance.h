@@ -18,7 +18,8 @@ LSDCD_FN Real segment_distance(const Vec3 &a, const Vec3 &b, const Vec3 &q)
   return norm(d - (t / length_sq) * along);
 }
 
-// Exact, with no division by an area. Where q lies outside one side of the triangle, the
+// Returns the distance from q to a triangle (figure 5 of the paper). That q lies over it is decided by its three sides, in place of
+// the paper's formula (5), which is wrong where an angle is obtuse. Exact, with no division by an area. Where q lies outside one side of the triangle, the
 // nearest point is on that side; outside two, on one of the two.
 LSDCD_FN Real triangle_distance(const MeshFeaturesView &wall, std::uint32_t face, const Vec3 &q)
 {

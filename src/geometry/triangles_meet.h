@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Do two triangles have a common point? It is exact, as it uses only signs of orientation().
+// Do two triangles have a common point? It is exact, as it uses only signs of orientation(). The test is the one that the paper
+// takes (section 3.7).
 #pragma once
 
 #include "geometry/orientation.h"

@@ -3,7 +3,8 @@
 
 // The limit-space grid. Every cell near the wall has a list of what a sphere with its centre
 // in that cell can touch. A complete list has every such feature, a nearest list the N
-// primitives of the wall that are nearest to the cell's centre.
+// primitives of the wall that are nearest to the cell's centre: the method of Yong et al. (2017), whose Table 1 shows such lists.
+// doc/paper.md compares the two, formula by formula.
 #pragma once
 
 #include "base/progress.h"

@@ -34,7 +34,8 @@ std::string syntax_of(const Keyword &row);
 // Reads the values of a word that all commands with a mesh share: mesh, scale, rotate, move, weld. False:
 // it is none of these.
 bool read_mesh_word(const std::string &word, Tokens &w, MeshSpec &mesh);
-// Returns the values of `nearest`, "all" (0) or N, and of `memory`, MiB: in bytes.
+// Returns the values of `nearest`, "all" (0) or N, the paper's N triangles of a cell (section 3.6), and of `memory`, MiB: in
+// bytes.
 int read_nearest(Tokens &);
 std::size_t read_memory(Tokens &);
 // Is this keyword given a second time although that is not allowed? `seen` has those before it.

@@ -91,7 +91,8 @@ struct FirstOfEqual {
   static constexpr bool kOrders = false;
 };
 
-// Tries the entries of a cell's list, the nearest first, as long as they can change the answer.
+// Tries the entries of a cell's list, the nearest first, as long as they can change the answer: the detection of
+// function (2) of the paper.
 // `limit`: how many are tried; one more is only a bound. Before decides between features at the same
 // distance: before(a, b) says by their codes whether a is found, not b.
 template <bool kPrimitives, class Distances, class Before>

@@ -70,6 +70,7 @@ void AccuracyStudy::set_spheres(std::size_t n)
   never_ = agreement(std::vector<std::uint8_t>(n, 0));
 }
 
+// Formula (6) of the paper.
 Real AccuracyStudy::agreement(const std::vector<std::uint8_t> &touching) const
 {
   std::size_t same = 0;

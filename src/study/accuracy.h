@@ -37,7 +37,7 @@ struct StudyRow {
   std::size_t triangles = 0, spheres = 0;
   InsideTest inside = InsideTest::exact;
   StudyLists lists;
-  // Formula (6): the share of spheres with the status that the formula (3) of the
+  // Formula (6) of the paper: the share of spheres with the status that the formula (3) of the
   // cylinder, or without one the wall itself, gives. `best`: of exact distances to the
   // wall; `never`: of the answer that no sphere touches.
   Real accuracy = 0, best = 0, never = 0;
@@ -55,7 +55,7 @@ struct StudyRow {
   QueryTiming query;
   double upload_ms = 0, download_ms = 0;    // spheres to the device, status back
 
-  // Formula (7), per cent.
+  // Formula (7) of the paper, per cent.
   Real error() const { return 100 * (best - accuracy) / best; }
 };
 

@@ -160,6 +160,25 @@ def test_messages_of_links():
                                             and not any(form in text for form in (part.strip(), part.strip(" ;:")))])
 
 
+def test_paper_of_links():
+    """What doc/paper.md names as the place of a formula, function or table of the paper is in that file, whose comment names the paper's."""
+    named, missing, unnamed = set(), [], []
+    for what, where in re.findall(r"^\| ([^|]+) \|[^|]*\| ([^|]*src/[^|]*) \|", Page("doc/paper.md").text, re.M):
+        of_paper = re.match(r"(formula|function|table) (\d)", what)
+        if of_paper:
+            named.add(of_paper[0])
+        for names, path in re.findall(r"((?:`\w+`[^`;[]*)+)\[[^]]*\]\(\.\./([^)]*)\)", where):
+            text = (ROOT / path).read_text(encoding="utf-8")
+            missing += [f"{path}: {name}" for name in re.findall(r"`(\w+)`", names) if not re.search(rf"\b{name}\b", text)]
+            comments = " ".join(re.findall(r"// ?(.*)", text))
+            if of_paper and not re.search(rf"{of_paper[1]} \({of_paper[2]}\)|{of_paper[1]} {of_paper[2]}\b", comments, re.I):
+                unnamed.append(f"{path}: {of_paper[0]}")
+    fact("doc/paper.md has a place for each formula, function and table", named == {
+        *(f"formula {n}" for n in range(1, 8)), *(f"function {n}" for n in (1, 2, 3)), "table 1", "table 2"}, sorted(named))
+    nothing("functions of doc/paper.md are in their files", missing)
+    nothing("comments name what of the paper it is", unnamed)
+
+
 # ---- code --------------------------------------------------------------------------------
 
 

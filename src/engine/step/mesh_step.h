@@ -402,7 +402,7 @@ LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t
   return apply_to_all<Law>(job, sphere, k, s.cutoff, memory, find) > 1;
 }
 
-// The candidates of one mesh, for run_step(): each takes fast_path(), and general_path() where that returns
+// The candidates of one mesh, for run_step(), where the paper has its function (2): each takes fast_path(), and general_path() where that returns
 // false or where there is none.
 template <class Law>
 struct MeshStep {

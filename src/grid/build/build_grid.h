@@ -43,8 +43,9 @@ class GridBuilder {
     n_primitives_ = wall.primitives.size();
   }
 
-  // Lists of the contact features or of primitives. Returns false,
-  // with `lists` untouched, if they would not fit `budget` bytes.
+  // Makes lists of the contact features or of primitives. Returns false,
+  // with `lists` untouched, if they would not fit `budget` bytes. This is the preprocessing of the paper, its function (1),
+  // the other way round: there each cell tries every triangle, here each feature finds its cells.
   bool build(const GridPlan &plan, const AnyGridSettings &settings, std::size_t budget,
              CellLists &lists, ListReport &report)
   {

@@ -155,7 +155,7 @@ void pack_part(B &b, const EntryPacking &packing, const CellEntry *entries, std:
   b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { packed[i] = packing.pack(entries[i]); });
 }
 
-// Makes lists of at most `most` entries a cell; `met` is what find_cells_met() has found. False if they would not fit
+// Makes lists of at most `most` entries a cell, the nearest to its centre, as function (1) of the paper does; `met` is what find_cells_met() has found. False if they would not fit
 // `budget` bytes or cannot be numbered; `out` then has the counts only.
 template <class B>
 bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const std::uint64_t *met,

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The octants of bricks that a feature meets.
+// The octants and cells of bricks that a feature meets, from large boxes to small ones: the paper's culling. Its formula (4)
+// leaves out cells of length 2 L that are farther than R + sqrt(3) L from all triangles, half their diagonal more
+// than the largest radius R, and only divides the others. Here bricks come first, then octants, blocks of 2 x 2 x 2 cells
+// and cells, all by the same bound.
 #pragma once
 
 #include "backend/bits.h"
@@ -28,7 +31,8 @@ struct BuildView {
 };
 
 // Can a sphere of the grid's cutoff, centred within `around` of c, have a contact
-// on this feature, or touch this primitive? If so, `distance` is how far it is from c.
+// on this feature, or touch this primitive? If so, `distance` is how far it is from c. With half the diagonal of a box
+// around c as `around`, this is formula (4) of the paper.
 LSDCD_FN bool meets(const BuildView &b, FeatureCode feature, const Vec3 &c, Real around,
                     Real &distance)
 {

@@ -61,7 +61,7 @@ LSDCD_FN CellIndex cell_index_of(const GridView &grid, const Vec3 &q)
   return p;
 }
 
-// Returns the index of the cell's brick in the table.
+// Returns the index in the table of the brick of cell (i, j, k): formula (3) of the paper, for bricks.
 LSDCD_FN std::size_t brick_index(const GridView &grid, int i, int j, int k)
 {
   return (static_cast<std::size_t>(k >> 3) * grid.n_bricks[1] + (j >> 3)) * grid.n_bricks[0] +
@@ -72,6 +72,7 @@ LSDCD_FN std::size_t brick_index(const GridView &grid, const CellIndex &p)
   return brick_index(grid, p.i, p.j, p.k);
 }
 
+// Returns the number of a cell in its brick: formula (3) once more, in bits, as a side has 8 cells.
 LSDCD_FN std::int32_t cell_in_brick(int i, int j, int k)
 {
   return ((k & 7) << 6) | ((j & 7) << 3) | (i & 7);

@@ -68,6 +68,8 @@ Box covered(const WeldedMesh &mesh, const Box &within, Real pad, Real rim)
   return box;
 }
 
+// Divides the box in which spheres can touch the wall into bricks: formula (1) of the paper, which divides all of space into
+// cells.
 GridPlan plan_with_length(const WeldedMesh &mesh, const GridSettings &settings, Real length,
                           Real least_volume)
 {

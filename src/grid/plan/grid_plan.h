@@ -37,6 +37,7 @@ struct GridPlan {
   Real least_volume;    // lower bound of the volume within the cutoff of the wall
   std::int32_t n_bricks[3];
 
+  // Returns the number of bricks in the box, by formula (2) of the paper: its volume over that of a brick.
   std::size_t table_size() const { return std::size_t(n_bricks[0]) * n_bricks[1] * n_bricks[2]; }
   // Lower bound of the bytes: of the table, or of the bricks that the least volume needs. Infinite if
   // bricks cannot be numbered.
