@@ -6,8 +6,8 @@
 LSDCD_BUILD   a build folder whose library is taken; without it the library is built in build/wheel
 CMAKE_ARGS    more words for CMake there, as -D LSDCD_CUDA=OFF
 
-The wheel has the library beside the package. It is for this machine's kind and needs the shared libraries that the
-build found (zstd, xxHash).
+The wheel has the library beside the package, and the material files where the library looks for them. It is for this
+machine's kind and needs the shared libraries that the build found (zstd, xxHash).
 """
 import base64
 import hashlib
@@ -87,6 +87,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     files["lsdcd/lsdcd.h"] = (package.parent / "lsdcd.h").read_bytes()    # whose structs the module reads
     with tempfile.TemporaryDirectory() as folder:
         files["lsdcd/liblsdcd.so.0"] = library(folder).read_bytes()
+    # share/lsdcd in the folder of the library, by shared_folder() of src/base/shared_files.cpp
+    for path in sorted((ROOT / "potentials").iterdir()):
+        files[f"lsdcd/share/lsdcd/potentials/{path.name}"] = path.read_bytes()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSES" / "BSD-3-Clause.txt").read_bytes()
     return write_wheel(wheel_directory, "lsdcd", version, tag, files, metadata())
 

@@ -231,6 +231,9 @@ def test_wheel(work):
     gives("the example in Python gives the distances there", WANTED, python, os.path.join(examples, "distance.py"), "cube.stl",
           folder=work, **alone)
     gives("and the pairs", WANTED_PAIRS, python, os.path.join(examples, "collide.py"), "floor.stl", "cube.stl", folder=work, **alone)
+    gives("a law finds the materials there", "made of glass", python, "-c",
+          "import lsdcd; lsdcd.Law.from_material('glass.lsdcd', 'glass'); print('made of glass')", folder=work, LSDCD_POTENTIALS="",
+          LAMMPS_POTENTIALS="", **alone)
     run(python, "-m", "pip", "uninstall", "--yes", "lsdcd", folder=work)
     left = [name for folder, _, names in os.walk(venv) for name in names
             if "lsdcd" in os.path.relpath(os.path.join(folder, name), venv)]
