@@ -8,6 +8,7 @@
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/host_atom_vec.h"
 #include "lammps/host_fixes.h"
+#include "lammps/restart_data.h"
 
 #include "atom.h"
 #include "modify.h"
@@ -56,9 +57,13 @@ int FixMassflowLsdcd::pack_restart(int i, double *buf)
 
 void FixMassflowLsdcd::unpack_restart(int i, int nth)
 {
-  const double *extra = atom->extra[i];
-  for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
-  flags_of(i) = static_cast<unsigned>(extra[1]);
+  constexpr const char *kWhat = "marks",
+                       *kWithout = "give the fix another ID to begin without what has passed";
+  const RestartRow row = restart_row(*atom, i, nth, kWhat, kWithout);
+  unsigned flags = 0;
+  while (flags <= kAllFlags && !(row.size == 1 && row.numbers[0] == flags)) flags++;
+  if (flags > kAllFlags) fail_at_row(*atom, i, kWhat, kWithout);
+  flags_of(i) = flags;
 }
 
 int FixMassflowLsdcd::size_restart(int /*i*/)

@@ -17,6 +17,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <unordered_map>
 #include <utility>
@@ -474,14 +475,14 @@ int FixSpringsLsdcd::pack_restart(int i, double *buf)
 
 void FixSpringsLsdcd::unpack_restart(int i, int nth)
 {
-  const double *extra = atom->extra[i];
-  for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
-  const int size = static_cast<int>(extra[0]) - 2;
-  if (!from_file || !partners.is_sound(extra + 2, size))
-    throw lsdcd::InputError("the springs of atom " + std::to_string(atom->tag[i]) +
-                            " in the restart file are damaged: " + kWithoutSprings);
-  known_as[i] = static_cast<tagint>(extra[1]);
-  of_atoms().unpack(i, extra + 2);
+  constexpr const char *kWhat = "springs";
+  const RestartRow row = restart_row(*atom, i, nth, kWhat, kWithoutSprings);
+  const double known = row.size > 0 ? row.numbers[0] : -1;
+  if (!from_file || !(known >= 0 && known <= MAXTAGINT) || known != std::floor(known) ||
+      !partners.is_sound(row.numbers + 1, row.size - 1))
+    fail_at_row(*atom, i, kWhat, kWithoutSprings);
+  known_as[i] = static_cast<tagint>(known);
+  of_atoms().unpack(i, row.numbers + 1);
 }
 
 double FixSpringsLsdcd::memory_usage()

@@ -116,10 +116,13 @@ int FixWallLsdcd::pack_restart(int i, double *buf)
 
 void FixWallLsdcd::unpack_restart(int i, int nth)
 {
-  const double *extra = atom->extra[i];
-  for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
+  constexpr const char *kWhat = "springs",
+                       *kWithout = "give the fix another ID to begin without them";
+  const RestartRow row = restart_row(*atom, i, nth, kWhat, kWithout);
+  if (!lsdcd::HistoryExchange::is_sound(row.numbers, row.size))
+    fail_at_row(*atom, i, kWhat, kWithout);
   history_on_cpu();
-  wall->history().unpack_saved(i, extra + 1, static_cast<int>(extra[0]) - 1);
+  wall->history().unpack_saved(i, row.numbers, row.size);
 }
 
 // LAMMPS since 3Nov2022 writes names without the suffix that is on, and looks for numbers of atoms by whole names: it would not

@@ -8,6 +8,9 @@
 #include "base/countable.h"
 #include "base/state_blocks.h"
 
+#include "atom.h"
+
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -44,6 +47,35 @@ inline std::string unread_state(const lsdcd::State &state)
   return names.empty() ? ""
                        : "the restart file has " + names +
                              ", which this version does not know: it is not carried over";
+}
+
+// What a fix has written for an atom behind the first number, which is how many there are with it.
+struct RestartRow {
+  const double *numbers;
+  int size;
+};
+
+// `without`: what is to be done to begin without the data.
+[[noreturn]] inline void fail_at_row(const Atom &atom, int i, const char *what, const char *without)
+{
+  throw lsdcd::InputError(std::string("the ") + what + " of atom " + std::to_string(atom.tag[i]) +
+                          " in the restart file are damaged: " + without);
+}
+
+// Returns what fix number `nth` of those with rows has written for atom i. Throws InputError where it would end past what LAMMPS has
+// read for the atom, whose rows lie one behind the other.
+inline RestartRow restart_row(const Atom &atom, int i, int nth, const char *what,
+                              const char *without)
+{
+  const double *row = atom.extra[i];
+  for (int left = atom.nextra_store;; nth--) {
+    const double size = left > 0 ? row[0] : 0;
+    if (!(size >= 1 && size <= left) || size != std::floor(size))
+      fail_at_row(atom, i, what, without);
+    if (nth == 0) return {row + 1, static_cast<int>(size) - 1};
+    row += static_cast<int>(size);
+    left -= static_cast<int>(size);
+  }
 }
 
 }    // namespace LAMMPS_NS

@@ -84,8 +84,13 @@ bool Partners::is_sound(const Real *from, int size) const
 {
   if (size < 1) return false;
   const Real n = from[0];
-  return n >= 0 && n == std::floor(n) && size == 1 + n * (1 + form_.stride()) &&
-         std::all_of(from, from + size, [](Real a) { return std::isfinite(a); });
+  const int each = 1 + form_.stride();
+  if (!(n >= 0) || n != std::floor(n) || size != 1 + n * each ||
+      !std::all_of(from, from + size, [](Real a) { return std::isfinite(a); }))
+    return false;
+  for (int at = 1; at < size; at += each)
+    if (std::fabs(from[at]) > 0x1p53 || from[at] != std::floor(from[at])) return false;
+  return true;
 }
 
 std::size_t Partners::bytes() const

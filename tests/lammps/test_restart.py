@@ -121,6 +121,26 @@ def test_unusable_data(folder):
                         f"the restart file cannot be used: the data of the", says, f"give the fix another ID to begin without {without}")
 
 
+def test_damaged_rows(folder):
+    """Rows of atoms have no checksum: LAMMPS packs them. What a row says of its sizes is believed only where it fits in what was read,
+    and is what the fix can have written. The rows of a sphere on the floor are [9, one spring, seven numbers] and [2, its marks]."""
+    fixes = scene.forces(LAWS["hooke_history"]) + "fix flow all massflow/lsdcd mesh floor.stl move 0 0 3 count once\n"
+    lmp.run_well(FEW + fixes + "run 300\nwrite_restart good.restart\n", folder)
+    good = (folder / "good.restart").read_bytes()
+    at = good.find(struct.pack("<2d", 9, 1))
+    fact("a sphere has a spring in the file", at > 0 and good[at + 72:at + 80] == struct.pack("<d", 2))
+    springs, marks = "Fix wall wall/lsdcd: the springs of atom", "Fix flow massflow/lsdcd: the marks of atom"
+    nan = float("nan")
+    for number, value, says in (
+            *((0, size, springs) for size in (0, -9, 8, 9.5, 1e9, -1e300, nan)), (0, 10, marks),
+            *((1, count, springs) for count in (0, -1, 2, 1.5, 1e300, nan)), (2, -1, springs), (2, 0.5, springs), (2, 1e300, springs),
+            (5, nan, springs), (9, 3, marks), (9, nan, marks), (10, 4, marks), (10, -1, marks), (10, 0.5, marks), (10, nan, marks)):
+        place = at + 8 * number
+        (folder / "bad.restart").write_bytes(good[:place] + struct.pack("<d", value) + good[place + 8:])
+        lmp.refused(f"number {number} of a row is {value}", scene.SETTINGS + "read_restart bad.restart\n" + fixes + "run 0\n", folder,
+                    says, "in the restart file are damaged: give the fix another ID to begin without")
+
+
 @pytest.mark.parametrize("name", LAWS)
 def test_continued(folder, name):
     two = write(LAWS[name], folder)

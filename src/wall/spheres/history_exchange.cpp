@@ -8,6 +8,7 @@
 #include "law/force_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 
@@ -69,6 +70,21 @@ int HistoryExchange::pack_saved(int i, double *buffer, const FeatureName &name) 
     buffer[1 + k * springs_.doubles_per_spring()] = packed_location(s);
   }
   return size;
+}
+
+bool HistoryExchange::is_sound(const double *buffer, int size)
+{
+  const double count = size > 0 ? buffer[0] : -1;
+  if (count == 0) return size == 1;
+  const double each = (size - 1) / count;
+  if (!(count > 0) || count != std::floor(count) || each < kPackedSpring ||
+      each != std::floor(each) ||
+      !std::all_of(buffer, buffer + size, [](double a) { return std::isfinite(a); }))
+    return false;
+  for (int at = 1; at < size; at += static_cast<int>(each))
+    if (!(buffer[at] >= 0 && buffer[at] < 0x1p53) || buffer[at] != std::floor(buffer[at]))
+      return false;
+  return true;
 }
 
 // Another law may have kept other numbers for each contact, and this one none. One of our kind has KeptLosses or not.

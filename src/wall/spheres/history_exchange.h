@@ -71,6 +71,8 @@ class HistoryExchange {
     other_law_ = 0;
     checked_ = false;
   }
+  // Returns whether `size` numbers are what pack_saved() can have written, for any law.
+  static bool is_sound(const double *buffer, int size);
   // `size` numbers of one sphere. Numbers that another law wrote are not read, but counted.
   void unpack_saved(int i, const double *buffer, int size);
   // Drops the history of those of the first n spheres that name a feature which is not there. Returns how many lost theirs. Local.
