@@ -743,6 +743,9 @@ TEST(partners, go_in_a_message_as_they_are)
   const Real numbers[] = {2, 7, 1, 2, 3, 4, 9, 5, 6, 7, 8};
   EXPECT_TRUE(a.is_sound(numbers, 11));
   EXPECT_FALSE(a.is_sound(numbers, 10));
+  const Real part_of_a_name[] = {1, 7.5, 1, 2, 3, 4}, no_name[] = {1, 1e300, 1, 2, 3, 4};
+  EXPECT_FALSE(a.is_sound(part_of_a_name, 6));
+  EXPECT_FALSE(a.is_sound(no_name, 6));
   EXPECT_EQ(a.unpack(1, numbers), 11);
   std::vector<Real> buffer(a.packed_size(1));
   EXPECT_EQ(a.pack(1, buffer.data()), 11);
