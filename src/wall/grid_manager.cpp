@@ -41,16 +41,34 @@ void GridManager::put_grid(const MeshPart &m)
   if (m.grid.tree()) engine_->set_tree(*m.grid.tree(), m.index);
 }
 
+namespace {
+
+// Engines have lengths over the radius as floats: those of a mesh of size 1 vanish at 1.4e45, and lose digits from 1e38 on.
+constexpr Real kLongestReach = 1e36;
+
+void check_reach(Real reach)
+{
+  if (!(reach <= kLongestReach))
+    throw InputError("the largest radius, of a sphere, rmax or a coat, is " + number_text(reach) +
+                     ", beyond " + number_text(kLongestReach) +
+                     ", up to which the wall finds contacts: correct it, or take a larger unit of "
+                     "length");
+}
+
+}    // namespace
+
 bool GridManager::fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int64_t step)
 {
   constexpr Real kHeadroom = 1.1;    // once radii are known to grow
   const Real old = cutoff(), of_coats = cutoff_of_coats();
   if (std::max(cutoff_of(radius, pull_off_), of_coats) <= old) return fit_box(step);
   check_rmax(radius, spheres);
-  if (old == 0 && radius > 0) checks_.check_radius(box(), radius);
   const Real largest =
       settings_.rmax > 0 ? settings_.rmax : (old > 0 ? kHeadroom * radius : radius);
-  rebuild(std::max(cutoff_of(largest, pull_off_), of_coats), step);
+  const Real reach = std::max(cutoff_of(largest, pull_off_), of_coats);
+  check_reach(reach);
+  if (old == 0 && radius > 0) checks_.check_radius(box(), radius);
+  rebuild(reach, step);
   return true;
 }
 
