@@ -201,7 +201,7 @@ enum { LSDCD_FOUND = 1, LSDCD_CERTIFIED = 2, LSDCD_SIDE_ESTIMATED = 4 };
 
 /* Points, and arrays for what is asked of them; those that are null are not asked for. Arrays of
  * numbers are of one type. Number k of point i is at [i * row + k * column], those of one number at
- * [i * step]; 0: packed. All others have one number a point.
+ * [i * step]; 0: packed. No two answers have one place. All others have one number a point.
  * Nothing at `radius` or farther is found: there the distance is infinite, the closest point the
  * point itself, the normal 0, triangle and feature LSDCD_NONE. A point that is no
  * number is far from everything. */
@@ -509,15 +509,16 @@ LSDCD_API int lsdcd_law_from_material(const lsdcd_materials *materials, lsdcd_la
  * lsdcd_wall_from_spec() makes one of meshes and laws. */
 typedef struct lsdcd_wall lsdcd_wall;
 
-/* A message of a wall: a line for the log, or with `warning` 1 what is probably not meant. What it throws in C++ does not
- * interrupt the call, which then returns LSDCD_ERROR_CANCELLED with its text, though all is done; a wall is not made. */
+/* A message of a wall: a line for the log, or with `warning` 1 what is probably not meant. It may call any function but
+ * with this wall. What it throws in C++ does not interrupt the call, which then returns LSDCD_ERROR_CANCELLED with its
+ * text, though all is done; a wall is not made. */
 typedef void lsdcd_message(void *data, int warning, const char *text);
 
 /* For a program of several processes, as with MPI. Each has a wall of the same spec, for spheres of its own,
  * and all call the functions of the wall together, in the same order, but for those that say "alone". All
  * processes then fail together, too, but for out of memory and errors of CUDA: end all of them there.
- * A callback is called by all processes in the calls of their walls; it changes the array in place and
- * returns 0, or what the call then fails with, as MPI_Allreduce and MPI_Bcast do. */
+ * A callback is called by all processes in the calls of their walls, and calls nothing with the wall; it changes the
+ * array in place and returns 0, or what the call then fails with, as MPI_Allreduce and MPI_Bcast do. */
 typedef struct lsdcd_host {
   size_t size;         /* of this struct */
   int rank, processes; /* this process, from 0, of how many */

@@ -12,6 +12,7 @@
 #include "query/radius_error.h"
 
 #include <cstddef>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,24 @@ void check_sides(const ApiGrid &grid, bool on_cpu)
                    "host tells its sides: use lsdcd_query_host()");
 }
 
+// Refuses an array of vectors in which numbers of two points have one place, where the answer to one of them would be lost.
+void check_rows(const lsdcd_query &q, const void *array, std::ptrdiff_t row, std::ptrdiff_t column,
+                const char *name)
+{
+  if (!array) return;
+  if (row == 0) row = 3;
+  if (column == 0) column = 1;
+  for (std::ptrdiff_t k = 1; k < 3; k++) {
+    if (k * column % row != 0 || static_cast<std::size_t>(std::abs(k * column / row)) >= q.n)
+      continue;
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "`" + std::string(name) +
+                       "`: numbers of several points have one place with a row of " +
+                       std::to_string(row) + " and a column of " + std::to_string(column) +
+                       ": give a row of 3 or more, or a column of `n` or more");
+  }
+}
+
 }    // namespace
 
 lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on_cpu)
@@ -46,6 +65,9 @@ lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on
     throw ApiError(LSDCD_ERROR_SIDE, "only the host tells winding numbers: use lsdcd_query_host()");
   if ((q.side || q.signed_distance) && !(on_cpu && needs_estimate(grid, q)))
     check_sides(grid, on_cpu);
+  check_rows(q, q.closest, q.closest_row, q.closest_column, "closest");
+  check_rows(q, q.normal, q.normal_row, q.normal_column, "normal");
+  check_rows(q, q.barycentric, q.barycentric_row, q.barycentric_column, "barycentric");
   settle_radius(grid, q);
   return q;
 }

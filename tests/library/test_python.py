@@ -142,6 +142,9 @@ def test_queries():
             lambda: grid.query(points, radius=OnCuda((2, 3))))
     refused("an answer on a device can be read-only", "cannot be written to",
             lambda: grid.query(there, out={"distance": OnCuda((5,), read_only=True)}), ValueError)
+    rows = np.lib.stride_tricks.as_strided(np.zeros(9), (5, 3), (8, 8))
+    refused("rows of answers that overlap are refused", "numbers of several points have one place with a row of 1 and a column of 1",
+            lambda: grid.query(np.zeros((5, 3)), out={"closest": rows}), lsdcd.Error)
     refused("points on a device are not copied", "strides (48, 1), not one step",
             lambda: grid.query(OnCuda((5, 3), strides=(48, 1))), ValueError)
     refused("contacts of points on a device are refused", "are on CUDA device 3, and contacts are found on the host alone",
@@ -690,9 +693,54 @@ def test_wall_arrays():
             lambda: lsdcd.Wall(spec).step(**{**many, "force": wide[:, :3], "torque": wide[:, 2:5]}), ValueError)
     refused("one row for all forces is refused", "force has the strides (0, 8)",
             lambda: lsdcd.Wall(spec).step(**{**many, "force": np.lib.stride_tricks.as_strided(both, (2, 3), (0, 8))}), ValueError)
+    for strides in ((8, 8), (16, 8), (32, 16), (-8, 8), (20, 8)):
+        rows = np.lib.stride_tricks.as_strided(np.zeros(12)[2:], (2, 3), strides)
+        refused(f"rows of forces that overlap by {strides} are refused", "numbers share memory",
+                lambda rows=rows: lsdcd.Wall(spec).step(**{**many, "force": rows}), ValueError)
+    refused("a radius up to which nothing is found is refused", "is 1e+60, beyond 1e+36",
+            lambda: lsdcd.Wall(spec).step(**{**given, "radius": np.full(1, 1e60)}), lsdcd.Error)
+    large = {**given, "force": np.zeros((1, 3)), "radius": np.full(1, 1e30)}
+    lsdcd.Wall(spec).step(**large)
+    fact("the largest radii have their force", large["force"][0, 2] == 1e3 * 1e30, large["force"])
     if not lsdcd._lib.lsdcd_has_cuda():
         refused("a wall on a device needs one", "use LSDCD_CPU", lambda: lsdcd.Wall(spec, device="cuda"), lsdcd.Error)
     refused("a stream needs a device", "stream is given", lambda: lsdcd.Wall(spec, stream=7), lsdcd.Error)
+
+
+def test_closed_in_a_callback():
+    """What a call uses is not freed before it has returned."""
+    says = "as a call of it has not returned"
+    floor = np.array([[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]])
+    mesh = lsdcd.Mesh(floor, [[0, 1, 2]])
+    points = np.random.default_rng(1).random((20000, 3))
+
+    def closing(thing):
+        return lambda what, done: thing.close()
+
+    grid = mesh.grid(cutoff=1)
+    for name, thing, call in (
+            ("a grid in its query", grid, lambda told: grid.query(points, progress=told)),
+            ("a grid in its search of contacts", grid, lambda told: grid.contacts(points, 1, progress=told)),
+            ("a grid in its search of contacts of grains", grid, lambda told: grid.shape_contacts(points[:99], (1, 1, 1), progress=told)),
+            ("a grid in its distances of grains", grid, lambda told: grid.shape_distances(points[:99], (1, 1, 1), progress=told)),
+            ("a mesh that a grid is made of", mesh, lambda told: mesh.grid(cutoff=1, cell=0.5, progress=told)),
+            ("a mesh that a body is made of", mesh, lambda told: lsdcd.Body(mesh, lsdcd.Mesh(floor, [[0, 1, 2]]), progress=told))):
+        refused(f"{name} is not closed", says, lambda thing=thing, call=call: call(closing(thing)), lsdcd.Error)
+        fact("and goes on", bool(thing._handle))
+    fact("its answers are those of before", np.allclose(grid.query(points).distance, points[:, 2], rtol=0, atol=1e-15))
+    law = lsdcd.Law("hooke", kn=1e3, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
+    for name, act in (("a wall in `show` is not closed", lambda: wall.close()), ("and makes no step there", lambda: wall.totals())):
+        acts = []
+        wall = lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh)]), lo=(-1, -1, -1), hi=(1, 1, 1),
+                          show=lambda text, warning: [act() for act in acts])
+        acts.append(act)
+        spheres = [np.zeros((1, 3)) for _ in range(5)]
+        spheres[0][0] = (0, 0, 9)    # outside of the box, which is warned of
+        refused(name, "has not returned", lambda: wall.step(*spheres[:3], np.ones(1), np.ones(1), *spheres[3:], 1e-3), lsdcd.Error)
+        acts.clear()
+        fact("and is closed behind that", wall.close() is None and not wall._handle)
+    grid.close()
+    refused("a closed grid answers no more", "is null", lambda: grid.query(points), lsdcd.Error)
 
 
 def check_memory_of_shapes():

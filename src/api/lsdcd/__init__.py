@@ -38,8 +38,8 @@ from . import _arrays, _shapes
 from ._c import DEVICES as DEVICES, ERRORS as ERRORS, Error as Error, Progress as Progress
 from ._c import (_BodyFacts, _BodyOptions, _BodyState, _Broadcast, _Collision, _Contacts, _GridFacts, _GridOptions, _Host,
                  _MeshArrays, _MeshFacts, _Owner, _Query, _Record, _Reduce, _Show, _Spheres, _WallOptions, _WallStep,
-                 _WallContacts, _WallImpacts, _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _flag, _instance,
-                 _int, _interrupts_held, _lib, _listened, _numbers, _real, _size, _sized, _text, _tuple)
+                 _WallContacts, _WallImpacts, _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _flag, _in_use,
+                 _instance, _int, _interrupts_held, _lib, _listened, _numbers, _real, _size, _sized, _text, _tuple)
 from ._shapes import (ShapeContacts as ShapeContacts, ShapeDistances as ShapeDistances, ShapeFacts as ShapeFacts,
                       shape_facts as shape_facts)
 from ._spec import (Law as Law, Motion as Motion, Placement as Placement, RigidBody as RigidBody, Servo as Servo,
@@ -232,7 +232,7 @@ class Grid(_Owner):
         super().__init__()
         self._streams = threading.local()
         _listened(lambda: _lib.lsdcd_grid_build(mesh._handle, ctypes.byref(options), ctypes.byref(self._handle)), options,
-                  progress)
+                  progress, mesh)
 
     @property
     def facts(self) -> GridFacts:
@@ -301,7 +301,7 @@ class Grid(_Owner):
                 for name, step in zip(("row", "column") if inner else ("step",), to):
                     setattr(query, f"{word}_{name}", step)
         if given.on_host:
-            _listened(lambda: _lib.lsdcd_query_host(self._handle, ctypes.byref(query)), query, progress)
+            _listened(lambda: _lib.lsdcd_query_host(self._handle, ctypes.byref(query)), query, progress, self)
             return answer
         if query.n > 0:
             self._query_on(given.device or 0, handle, owner, query, any(map(_arrays.must_wait, kept)))
@@ -359,7 +359,7 @@ class Grid(_Owner):
             made = {name: mine[name] if name in mine else place(name, m, *kind) for name, kind in OF_CONTACTS.items()}
             for name, (_, at) in made.items():
                 setattr(ask, name, at.address)
-            _listened(lambda: _lib.lsdcd_contacts_host(self._handle, ctypes.byref(ask)), ask, progress)
+            _listened(lambda: _lib.lsdcd_contacts_host(self._handle, ctypes.byref(ask)), ask, progress, self)
             if ask.contacts <= m:
                 used = slice(ask.contacts)    # of arrays that have no slices, as numpy's
                 return Contacts(first=first, **{name: array[used] if hasattr(array, "__getitem__") else at.host()[used]
@@ -378,14 +378,14 @@ class Grid(_Owner):
 
         Raises ValueError for wrong shapes of arrays, and Error, a ValueError, too, for numbers that make no grain, and for a grid
         with `nearest` or in float."""
-        return _shapes.contacts(self._handle, centres, half_axes, exponents, quaternions, threads, progress)
+        return _shapes.contacts(self, centres, half_axes, exponents, quaternions, threads, progress)
 
     def shape_distances(self, centres: ArrayLike, half_axes: ArrayLike, exponents: ArrayLike | None = None,
                         quaternions: ArrayLike | None = None, threads: int = 0,
                         progress: Progress | None = None) -> ShapeDistances:
         """How far ellipsoids and superellipsoids are from the mesh, at any range, below 0 by the overlap. Arguments and errors are
         those of shape_contacts()."""
-        return _shapes.distances(self._handle, centres, half_axes, exponents, quaternions, threads, progress)
+        return _shapes.distances(self, centres, half_axes, exponents, quaternions, threads, progress)
 
     def _query_on(self, device: int, handle: int, owner: Any, query: Any, wait: bool) -> None:
         """On a stream of a device; `owner` keeps the stream alive."""
@@ -565,7 +565,7 @@ class Body(_Owner):
         if isinstance(wall, Body):
             options.same_wall = wall._handle
         _listened(lambda: _lib.lsdcd_body_make(None if isinstance(wall, Body) else wall._handle, mesh._handle,
-                                               ctypes.byref(options), ctypes.byref(self._handle)), options, progress)
+                                               ctypes.byref(options), ctypes.byref(self._handle)), options, progress, wall, mesh)
 
     @property
     def facts(self) -> BodyFacts:
@@ -687,7 +687,7 @@ class Wall(_Owner):
     """A wall of meshes that pushes spheres, by a WallSpec. Where a method takes a mesh, it is its number, from 0, or its name. `lo`, `hi`: the
     box of the spheres' centres, None: wherever they go; `periodic`: along x, y, z, with `margin`, how far past a
     face a sphere may go before the caller puts it back. `show(text, warning)` gets each line of the log. One
-    thread at a time.
+    thread at a time: while a call runs, `show` and the functions of `host` cannot call the wall, nor close it.
 
     device: "cpu", for spheres in arrays of the host, or "cuda", for arrays on the CUDA device that is current when the
     wall is made, in the order of `stream`: one of PyTorch or CuPy, or a cudaStream_t as a number; None: the default
@@ -745,12 +745,17 @@ class Wall(_Owner):
         for name, place in (("lo", least), ("hi", most)):
             if place is not None:
                 setattr(options, name, (_real * 3)(*place))
-        self._do(_lib.lsdcd_wall_from_spec, ctypes.byref(spec._struct), ctypes.byref(options), ctypes.byref(self._handle))
+        self._do(_lib.lsdcd_wall_from_spec, ctypes.byref(spec._struct), ctypes.byref(options), ctypes.byref(self._handle),
+                 meshes=spec._meshes())
 
-    def _do(self, call: Any, *arguments: Any) -> None:
+    def _do(self, call: Any, *arguments: Any, meshes: Sequence[Mesh] = ()) -> None:
+        """Makes a call of the wall, which reads these meshes."""
         if self._host is None and not self._show:    # nothing that C calls
             return _check(call(*arguments))
-        with _interrupts_held(self._told):
+        if self._calls:
+            raise Error("a call of the wall has not returned, and a wall makes one at a time: call it behind that, not in `show`, in a "
+                        "function of its host or in another thread", "argument")
+        with _in_use(self, *meshes), _interrupts_held(self._told):
             code = call(*arguments)
         told = list(self._told)
         self._told.clear()
@@ -1041,8 +1046,24 @@ def _check_apart(given: dict[str, NDArray[Any]]) -> None:
         for name, array in given.items() if result in given else ():
             if name != result and np.shares_memory(given[result], array):
                 raise ValueError(f"{result} shares memory with {name}: give an array of its own")
-            if name == result and any(step == 0 and n > 1 for step, n in zip(array.strides, array.shape)):
-                raise ValueError(f"{name} has the strides {array.strides}: make it contiguous")
+            if name == result and _overlaps_itself(array):
+                raise ValueError(f"{name} has the strides {array.strides}, by which numbers share memory: make it contiguous")
+
+
+def _overlaps_itself(array: NDArray[Any]) -> bool:
+    """Do two elements of an array of one or two dimensions share memory? They do where i steps along the one axis are as long as j along
+    the other."""
+    if array.size == 0:
+        return False
+    steps = [(n, abs(step)) for n, step in zip(array.shape, array.strides)]
+    (few, short), (many, long) = sorted([(1, 0), *steps])[-2:]
+    if many > 1 and long < array.itemsize:
+        return True
+    for j in range(1, few):
+        i = min((2 * j * short + long) // (2 * long), many - 1) if many > 1 else 0
+        if abs(i * long - j * short) < array.itemsize:
+            return True
+    return False
 
 
 def _host_struct(host: Host, called: Callable[[Callable[..., object]], Callable[..., int]]) -> Any:

@@ -117,23 +117,24 @@ def _interrupts_held(raised: list[BaseException]) -> Iterator[None]:
             signal.signal(signal.SIGINT, handler)
 
 
-def _listened(call: Callable[[], Any], options: Any, listener: Progress | None) -> None:
-    """Makes a call with these options that tells the listener how far it is."""
-    if listener is None:
-        return _check(call())
-    progress: Progress = listener
-    raised: list[BaseException] = []
+def _listened(call: Callable[[], Any], options: Any, listener: Progress | None, *objects: _Owner) -> None:
+    """Makes a call of these objects, with these options, that tells the listener how far it is."""
+    with _in_use(*objects):
+        if listener is None:
+            return _check(call())
+        progress: Progress = listener
+        raised: list[BaseException] = []
 
-    def tell(_: Any, what: bytes, done: float) -> int:
-        try:
-            return int(bool(progress(_text(what), done)) or bool(raised))
-        except BaseException as error:    # none may pass through C
-            raised.append(error)
-            return 1
+        def tell(_: Any, what: bytes, done: float) -> int:
+            try:
+                return int(bool(progress(_text(what), done)) or bool(raised))
+            except BaseException as error:    # none may pass through C
+                raised.append(error)
+                return 1
 
-    options.progress = _Progress(tell)
-    with _interrupts_held(raised):
-        code = call()
+        options.progress = _Progress(tell)
+        with _interrupts_held(raised):
+            code = call()
     if raised:
         raise raised[0]
     _check(code)
@@ -238,15 +239,22 @@ class _Owner:
 
     def __init__(self) -> None:
         self._handle = _at()
+        self._calls: list[None] = []    # one for each call that uses the memory; see _in_use()
 
     def __del__(self) -> None:
         self.close()
 
     def close(self) -> None:
-        """Frees the memory now; every later call is an Error. `with` does it at its end."""
-        if getattr(self, "_handle", None):
-            self._free(self._handle)
-            self._handle = _at()
+        """Frees the memory now; every later call is an Error. `with` does it at its end. Raises Error while a call of the object has
+        not returned, as in its callback or in another thread."""
+        if not getattr(self, "_handle", None):
+            return
+        handle, self._handle = self._handle, _at()
+        if self._calls:    # looked at when no further call can find the handle
+            self._handle = handle
+            raise Error(f"this {type(self).__name__} cannot be closed, as a call of it has not returned: close it behind that call, not in "
+                        "its callback or in another thread", "argument")
+        self._free(handle)
 
     def __enter__(self: _Self) -> _Self:
         return self
@@ -257,6 +265,19 @@ class _Owner:
     def __reduce_ex__(self, protocol: Any) -> Any:    # what copy, deepcopy and pickle ask for
         raise TypeError(f"a {type(self).__name__} holds memory of the library and is neither copied nor pickled; "
                         "share it, or make another one")
+
+
+@contextlib.contextmanager
+def _in_use(*objects: _Owner) -> Iterator[None]:
+    """Meanwhile none of these objects can be closed: calls of C let other threads run, and may call Python back. Their handles are to be
+    read within."""
+    for one in objects:
+        one._calls.append(None)
+    try:
+        yield
+    finally:
+        for one in objects:
+            one._calls.pop()
 
 
 class _Spec:

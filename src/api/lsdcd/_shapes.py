@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._c import Progress, _as_floats, _check, _lib, _listened, _Record, _ShapeFacts, _Shapes, _sized
+from ._c import Progress, _as_floats, _check, _lib, _listened, _Owner, _Record, _ShapeFacts, _Shapes, _sized
 
 
 class ShapeContacts(_Record):
@@ -89,7 +89,7 @@ def _asked(centres: ArrayLike, half_axes: ArrayLike, exponents: ArrayLike | None
     return ask, kept
 
 
-def contacts(grid: Any, centres: ArrayLike, half_axes: ArrayLike, exponents: ArrayLike | None, quaternions: ArrayLike | None,
+def contacts(grid: _Owner, centres: ArrayLike, half_axes: ArrayLike, exponents: ArrayLike | None, quaternions: ArrayLike | None,
              threads: int, progress: Progress | None) -> ShapeContacts:
     ask, kept = _asked(centres, half_axes, exponents, quaternions, threads)
     first = np.empty(ask.n + 1, np.uintp)
@@ -100,13 +100,13 @@ def contacts(grid: Any, centres: ArrayLike, half_axes: ArrayLike, exponents: Arr
             name: np.empty(m, np.uint32) for name in ("triangle", "feature")}
         for name, array in made.items():
             setattr(ask, name, array.ctypes.data)
-        _listened(lambda: _lib.lsdcd_shapes_host(grid, ctypes.byref(ask)), ask, progress)
+        _listened(lambda: _lib.lsdcd_shapes_host(grid._handle, ctypes.byref(ask)), ask, progress, grid)
         if ask.contacts <= m:
             del kept
             return ShapeContacts(first=first, **{name: array[:ask.contacts] for name, array in made.items()})
 
 
-def distances(grid: Any, centres: ArrayLike, half_axes: ArrayLike, exponents: ArrayLike | None, quaternions: ArrayLike | None,
+def distances(grid: _Owner, centres: ArrayLike, half_axes: ArrayLike, exponents: ArrayLike | None, quaternions: ArrayLike | None,
               threads: int, progress: Progress | None) -> ShapeDistances:
     ask, kept = _asked(centres, half_axes, exponents, quaternions, threads)
     n = ask.n
@@ -114,6 +114,6 @@ def distances(grid: Any, centres: ArrayLike, half_axes: ArrayLike, exponents: Ar
                           triangle=np.empty(n, np.uint32), feature=np.empty(n, np.uint32))
     for name, array in vars(made).items():
         setattr(ask, name if name in ("distance", "closest") else "closest_" + name, array.ctypes.data)
-    _listened(lambda: _lib.lsdcd_shapes_host(grid, ctypes.byref(ask)), ask, progress)
+    _listened(lambda: _lib.lsdcd_shapes_host(grid._handle, ctypes.byref(ask)), ask, progress, grid)
     del kept
     return made

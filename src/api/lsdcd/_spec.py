@@ -438,10 +438,13 @@ class WallSpec(_Spec):
             shapes=_flag(shapes, "shapes"))
         self._kept = (law, parts, array)    # what the struct points to
 
+    def _meshes(self) -> list[Mesh]:
+        return [part._kept[0] for part in self._kept[1]]
+
     def _names(self) -> list[str]:
         """What the wall calls its meshes. Raises ValueError where one of them has been closed."""
-        for k, part in enumerate(self._kept[1]):
-            if not part._kept[0]._handle:
+        for k, mesh in enumerate(self._meshes()):
+            if not mesh._handle:
                 raise ValueError(f"meshes[{k}]: its Mesh has been closed, so that no wall can be made of it")
         return [part._name or f"mesh {k + 1}" for k, part in enumerate(self._kept[1])]
 
