@@ -468,15 +468,18 @@ void PairGranularLsdcd::check_radii()
     const double most = limits[2 * atom->type[i] + (atom->mask[i] & frozen ? 1 : 0)];
     const bool is_listed = atom->radius[i] <= spare + listed[i];
     if (is_listed && atom->radius[i] <= spare + most) continue;
-    const std::string of_type =
-        lists_are_by_types() ? " of type " + std::to_string(atom->type[i]) : "";
+    const bool by_types = lists_are_by_types();
+    const std::string of_type = by_types ? " of type " + std::to_string(atom->type[i]) : "";
     fatal_here("the radius of atom " + std::to_string(atom->tag[i]) + " is " +
                lsdcd::number_text(atom->radius[i]) + ", for which contacts would be missed: " +
                (is_listed
                     ? "the lists of this run are for grains" + of_type + " of up to " +
                           lsdcd::number_text(most) +
                           "; end the run before the largest radius has grown by a quarter of the "
-                          "skin, as by 'run N every M NULL', or make the skin larger (neighbor)"
+                          "skin, as by 'run N every M NULL', or make the skin larger (neighbor)" +
+                          (by_types ? ""
+                                    : ", or give pair_style a cutoff of twice the largest "
+                                      "radius that is to come")
                     : "since neighbor lists were made it was " + lsdcd::number_text(listed[i]) +
                           ", and may grow by a quarter of the skin: write 'neigh_modify check "
                           "no' with a smaller 'every', and set radii before the run"));

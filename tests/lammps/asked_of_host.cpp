@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Preloaded, says at the end how often masses of rigid bodies were asked for, and how often LSDCD had Kokkos bring places of atoms to the CPU.
+// Preloaded, says at the end how often masses of rigid bodies were asked for, and how often LSDCD had Kokkos bring places and IDs of
+// atoms to the CPU.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -21,7 +22,9 @@ struct Counts {
 bool is_of_lsdcd(const void *code)
 {
   Dl_info file;
-  return dladdr(code, &file) && std::strstr(file.dli_fname, "lsdcd");
+  if (!dladdr(code, &file)) return false;
+  const char *const name = std::strrchr(file.dli_fname, '/');
+  return name && std::strstr(name, "lsdcd");
 }
 
 }    // namespace
@@ -41,8 +44,10 @@ PRELOADED void sync(void *atoms, int space, std::uint64_t what) __asm__(SYNC);
 void sync(void *atoms, int space, std::uint64_t what)
 {
   constexpr int kHost = 0;
-  constexpr std::uint64_t kPlaces = 1;
-  if (space == kHost && (what & kPlaces) && is_of_lsdcd(__builtin_return_address(0)))
+  // Where Kokkos computes on the CPU, a step asks for places there, too, but not for IDs.
+  constexpr std::uint64_t kPlacesAndIds = 0x1 | 0x8;
+  if (space == kHost && (what & kPlacesAndIds) == kPlacesAndIds &&
+      is_of_lsdcd(__builtin_return_address(0)))
     counts.places++;
   using Original = void(void *, int, std::uint64_t);
   static Original *const original = reinterpret_cast<Original *>(dlsym(RTLD_NEXT, SYNC));

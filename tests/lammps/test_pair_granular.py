@@ -168,6 +168,8 @@ def is_push(what, row, push):
 def test_set_before_a_run_without_setup(folder, rigid):
     """The command set changes radii and masses of both grains of a pair, where LAMMPS makes no new lists before the run, and where there are rigid
     bodies elsewhere."""
+    if rigid and lmp.ON_HOST:
+        pytest.skip("the command set of LAMMPS 4Jul2026 reads through a null pointer where a fix rigid is set up")
     change = "run 5\nset atom 1 diameter 1.004 density 2\nset atom 2 diameter 1.008 density 3\nrun 5 pre no\n"
     for newton in ("off", "on"):
         for ranks in (1, 2):
