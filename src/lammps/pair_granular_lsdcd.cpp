@@ -48,6 +48,15 @@ std::string types_text(int i, int j)
   return std::to_string(i) + " and " + std::to_string(j);
 }
 
+// Returns whether LAMMPS sends the heat of ghost atoms to their owners.
+bool heat_goes_back(Modify &modify)
+{
+  const std::vector<Fix *> fixes = lsdcd::host_fixes(modify);
+  return std::any_of(fixes.begin(), fixes.end(), [](const Fix *fix) {
+    return std::strcmp(fix->style, "heat/flow") == 0 && fix->comm_reverse > 0;
+  });
+}
+
 }    // namespace
 
 PairGranularLsdcd::PairGranularLsdcd(LAMMPS *lmp) :
@@ -232,8 +241,9 @@ void PairGranularLsdcd::init_style()
   if (has_heat && (!atom->temperature_flag || !atom->heatflow_flag))
     fatal("the sub-model heat needs a temperature and a heat flow per atom: fix ID all "
           "property/atom temperature heatflow ghost yes, and fix heat/flow to change them");
-  if (has_heat && force->newton_pair)
-    fatal("the heat of ghost atoms does not go back to their owners: write 'newton off'");
+  if (has_heat && force->newton_pair && !heat_goes_back(*modify))
+    fatal("with newton on fix heat/flow sends the heat of ghost atoms to their owners, and there "
+          "is none: write that fix, or 'newton off'");
 #else
   if (has_heat)
     fatal("the sub-model heat needs a LAMMPS with fix heat/flow, of 2 Aug 2023 or later: that of "

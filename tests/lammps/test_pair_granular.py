@@ -886,16 +886,23 @@ compute c all contact/atom
 """
     read = "fix prop all property/atom temperature heatflow ghost yes\nread_data grains.data fix prop NULL NULL\n"
 
-    def results(style, name, ranks=1, balance=""):
-        text = script(ours("* * " + law, style=style), steps=300, every=100, name=name, more=more + balance)
+    def results(style, name, ranks=1, balance="", newton="off"):
+        text = script(ours("* * " + law, style=style), steps=300, every=100, name=name, more=more + balance, newton=newton)
         text = text.replace("read_data grains.data\n", read).replace(COLUMNS, COLUMNS + " c_t[1] c_t[2] c_c")
         text = text.replace("thermo_style custom step ke pe press\n", "thermo_style custom step ke press pxy\nthermo_modify format float %.15g\n")
         rows = lmp.read_thermo(lmp.run_well(text, folder, ranks))
         return lmp.read_dump(folder / name), rows
 
-    theirs, pressure = results("granular", "theirs")
-    for ranks, balance in ((1, ""), (4, "fix b all balance 50 1.0 shift xyz 5 1.05\n")):
-        own, own_pressure = results("granular/lsdcd", "out", ranks, balance)
-        at_most(f"{ranks} ranks: grains", lmp.largest_difference(theirs, own), 1e-10)
+    right = {newton: results("granular", "theirs", newton=newton) for newton in ("off", "on")}
+    temperatures = [[row[-3] for row in right[newton][0][300].values()] for newton in right]
+    at_most("temperatures of newton on", max(abs(a / b - 1) for a, b in zip(*temperatures)), 1e-10)
+    for ranks, balance, newton in ((1, "", "off"), (1, "", "on"), (4, "fix b all balance 50 1.0 shift xyz 5 1.05\n", "off"), (2, "", "on")):
+        own, own_pressure = results("granular/lsdcd", "out", ranks, balance, newton)
+        theirs, pressure = right[newton]
+        if newton == "on":    # fix heat/flow sends no heat in a setup
+            theirs, own = ({step: rows for step, rows in grains.items() if step > 0} for grains in (theirs, own))
+        at_most(f"{ranks} ranks, newton {newton}: grains", lmp.largest_difference(theirs, own), 1e-10)
         worst = max(abs(a / b - 1) for rows in zip(pressure, own_pressure) for a, b in zip(*rows) if b)
-        at_most(f"{ranks} ranks: motion and stress", worst, 1e-10)
+        at_most(f"{ranks} ranks, newton {newton}: motion and stress", worst, 1e-10)
+    without = script(ours("* * " + law), newton="on").replace("read_data grains.data\n", read)
+    lmp.refused("newton on without fix heat/flow", without, folder, "there is none: write that fix, or 'newton off'")
