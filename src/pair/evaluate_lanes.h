@@ -101,23 +101,28 @@ void each_choice(GranularModel<Normal, kHistory, kSet> &law, const Act &act)
   act(law.limit_damping);
 }
 
-using Choices = std::array<std::int64_t, kLaneChoices>;
-
-template <class Law>
-Choices choices_of(Law law)
-{
-  Choices all = {};
-  std::size_t at = 0;
-  each_choice(law, [&](auto choice) { all[at++] = static_cast<std::int64_t>(choice); });
-  return all;
-}
-
 template <class Law>
 void prepare_lanes(const LawBytes &bytes, PairLanes &lanes)
 {
-  const Choices all = choices_of(bytes.as<Law>());
-  for (std::size_t at = 0; at < all.size(); at++)
-    for (std::int64_t &lane : lanes.choice[at]) lane = all[at];
+  Law law = bytes.as<Law>();
+  int at = 0;
+  each_choice(law, [&](auto choice) {
+    for (std::int64_t &lane : lanes.choice[at]) lane = static_cast<std::int64_t>(choice);
+    at++;
+  });
+}
+
+// Returns the choices of a law in one number.
+template <class Law>
+std::uint64_t choices_of(const Law &given)
+{
+  constexpr int kBits = 4;
+  static_assert(kBits * kLaneChoices <= 64, "a number has room for all choices");
+  Law law = given;
+  std::uint64_t choices = 0;
+  each_choice(
+      law, [&](auto choice) { choices = choices << kBits | static_cast<std::uint64_t>(choice); });
+  return choices;
 }
 
 // Choices that a loop is compiled for: fix() makes constants of them. The usual ones of `granular` leave out roots and divisions of
@@ -281,14 +286,16 @@ bool evaluate_one(const LawBytes &bytes, const GrainPair &p, bool touched, const
 template <class Law>
 PairLaw compiled_pair(const Law &law, Real pull_off)
 {
-  PairLaw out = {LawBytes(law),       pull_off, false,   0,  evaluate_one<Law>,
-                 evaluate_lanes<Law>, nullptr,  nullptr, {}, nullptr};
+  PairLaw out = {
+      LawBytes(law), pull_off, false, 0,      evaluate_one<Law>, evaluate_lanes<Law>, nullptr,
+      nullptr,       0,        {},    nullptr};
   if constexpr (Law::kHeat) out.has_heat = law.has_heat();
   if constexpr (Law::kHistory) out.stored = stored_numbers(law);
 #if defined(LSDCD_WIDE_PAIRS)
   if constexpr (!Law::kBeyondContact) {    // whose contact radius is found by steps
     set_wide_of(law, out);
     out.prepare = prepare_lanes<Law>;
+    out.choices = choices_of(law);
   }
 #endif
   return out;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -137,6 +138,8 @@ struct PairLaw {
   // Computes them in vectors, in steps in which springs move; prepare() has been called for these lanes. Null: there is no such loop.
   void (*evaluate_wide)(const LawBytes &, PairLanes &, int n, Real dt);
   void (*prepare)(const LawBytes &, PairLanes &);
+  std::uint64_t
+      choices;    // what prepare() writes: the same for laws with the same prepare() and choices
   // The law that books energy, and what it does to a pair that touches now or did a step ago (pair_energy.h). Null: pairs do not keep
   // their forces.
   LawBytes booked;

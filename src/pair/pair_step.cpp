@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A step of pairs: those that touch are found, put into lanes and computed there; their forces are added in the order of the
-// host's list. Each of these is a loop of its own over some dozens of pairs.
+// host's list. Each of these is a loop of its own over some dozens of pairs; with several laws over some hundreds or thousands, so that
+// the lanes of each law are filled.
+#include "backend/bits.h"
 #include "pair/compile_pair.h"
 #include "pair/pair_kernel.h"
 #include "pair/pair_lanes.h"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cfenv>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -18,6 +21,10 @@ namespace lsdcd {
 namespace {
 
 constexpr std::size_t kNone = ~static_cast<std::size_t>(0);    // a pair that keeps nothing yet
+constexpr Lane kNothing = {};
+// So many pairs are found before they get their lanes. With several laws so many wait at most until all are computed: enough to fill the
+// lanes of most laws, and few enough for caches.
+constexpr int kFindAtOnce = 4 * kLanes, kMostWaitOfLaw = 4 * kLanes, kMostWait = 128 * kLanes;
 
 // While it lives, no operation without a result sends a signal, which a host may have asked for. Vectors do in vain what a branch
 // would leave out, such as the root of a negative number.
@@ -62,14 +69,25 @@ void take_from(Real *all, std::size_t i, const Vec3 &a)
   for (int k = 0; k < 3; k++) to[k] -= a[k];
 }
 
-// The pairs of one law in lanes.
-struct LawLanes {
-  PairLanes lanes = {};
+// The pairs of one law that are in lanes, or wait for them to be filled: their numbers among those that are found.
+struct LawPairs {
   int n = 0;
-  int pair[kLanes];    // their numbers among those that are found
-  // The numbers of the memory that are stored, in the order of the history.
-  int n_stored = 0, stored[kLaneNumbers] = {};
+  int pair[kLanes];
 };
+
+// What a pair does to its grains, its heat and its elastic energy.
+struct PairResult {
+  Vec3 force, torque_i, torque_j;
+  Real heat, energy;
+};
+
+// Of a pair that waits what it has kept, in the order of the history, and then its force and torques.
+struct PairRecord {
+  Real numbers[9];
+
+  PairRecord() {}    // an array of them takes memory alone
+};
+static_assert(kLaneNumbers <= 9, "a record has room for what a pair keeps");
 
 // kOne: all types have one law.
 template <bool kOne>
@@ -77,18 +95,16 @@ class PairStep {
  public:
   explicit PairStep(const PairJob &job) :
       job_(job), keeps_(job.history != nullptr), wide_(job.update),
-      n_both_(job.both_sides ? std::numeric_limits<int>::max() : job.n_own), of_law_(job.n_laws)
+      n_both_(job.both_sides ? std::numeric_limits<int>::max() : job.n_own),
+      has_more_(job.heat || job.record),
+      most_wait_(std::min(kMostWaitOfLaw * job.n_laws, kMostWait)), of_law_(job.n_laws)
   {
+    for (int k = 0; k < kLaneNumbers; k++) lanes_.before[k] = lanes_.after[k] = lanes_.memory[k];
     for (int law = 0; law < job.n_laws; law++) {
-      const PairLaw &of = job.laws[law];
-      beyond_contact_ = beyond_contact_ || of.pull_off > 0;
-      LawLanes &l = of_law_[law];
-      for (int k = 0; k < kLaneNumbers; k++)
-        l.lanes.before[k] = l.lanes.after[k] = l.lanes.memory[k];
-      if (wide_ && of.evaluate_wide) of.prepare(of.law, l.lanes);
-      for (int k = 0; k < kLaneNumbers; k++)
-        if (of.stored >> k & 1) l.stored[l.n_stored++] = k;
+      beyond_contact_ = beyond_contact_ || job.laws[law].pull_off > 0;
+      most_stored_ = std::max(most_stored_, static_cast<int>(count_bits(job.laws[law].stored)));
     }
+    if (!kOne) make_room((most_wait_ + 2 * kFindAtOnce) / 2);    // of which it makes twice as much
   }
 
   void run()
@@ -102,7 +118,7 @@ class PairStep {
       make_room(n_found_ + n);
       n_found_ += beyond_contact_ ? find_held(i, start) : find_touching(i, start);
       start += static_cast<std::size_t>(n);
-      if (n_found_ >= 4 * kLanes) compute_found(false);
+      if (n_found_ - n_chosen_ >= kFindAtOnce) compute_found(false);
     }
     compute_found(true);
     add_to(job_.force, index_of(sum_of_), force_);
@@ -121,7 +137,9 @@ class PairStep {
     neighbour_.resize(2 * room);
     key_.resize(2 * room);
     old_.resize(2 * room);
-    if (!kOne) lane_.resize(2 * room);
+    if (kOne) return;
+    record_.resize(2 * room);
+    if (has_more_) more_.resize(2 * room);
   }
 
   // Append the pairs of a row that touch to those that are found, and return how many these are. The row's first pair has the
@@ -197,14 +215,27 @@ class PairStep {
 
   // ---- in lanes -------------------------------------------------------------------------
 
-  // Computes the pairs that are found; while more are found, as many as fill the lanes of a law.
+  // Computes the pairs that are found; while more are found, as many as fill lanes.
   void compute_found(bool all)
   {
+    if (kOne)
+      compute_in_order(all);
+    else
+      compute_by_law(all);
+  }
+  void compute_in_order(bool all)
+  {
+    LawPairs &l = of_law_[0];
     int begin = 0;
-    while (begin < n_found_) {
-      const int end = choose_lanes(begin);
-      if (end == n_found_ && !all && !is_full()) break;
-      compute(begin, end);
+    while (n_found_ - begin >= (all ? 1 : kLanes)) {
+      const int n = std::min(kLanes, n_found_ - begin), end = begin + n;
+      l.n = n;
+      for (int k = 0; k < n; k++) l.pair[k] = begin + k;
+      const std::size_t kept = keeps_ ? begin_history(begin, end) : 0;
+      gather(l);
+      if (keeps_) set_history(l, kept);
+      evaluate(0, l.n);
+      add_results(begin, end);
       begin = end;
     }
     for (int m = begin; m < n_found_; m++) {
@@ -214,58 +245,68 @@ class PairStep {
     }
     n_found_ -= begin;
   }
-  // Gives the pairs from `begin` on their lanes, and returns the one behind them.
-  int choose_lanes(int begin)
+  // With several laws a pair waits until the lanes of its law are full. Forces are added in the order of the list, when none waits.
+  void compute_by_law(bool all)
   {
-    if (kOne) {
-      of_law_[0].n = std::min(kLanes, n_found_ - begin);
-      return begin + of_law_[0].n;
+    for (int begin = n_chosen_; keeps_ && begin < n_found_; begin += kLanes) {
+      const int end = std::min(begin + kLanes, n_found_);
+      const std::size_t kept = begin_history(begin, end);
+      if (begin == 0) kept_ = kept;
+      record_kept(begin, end);
     }
-    for (LawLanes &l : of_law_) l.n = 0;
-    for (int m = begin; m < n_found_; m++) {
-      const int law = law_of(first_[m], neighbour_[m] & job_.list.mask);
-      LawLanes &l = of_law_[law];
-      if (l.n == kLanes) return m;
-      lane_[m] = {law, l.n};
-      l.pair[l.n++] = m;
+    for (; n_chosen_ < n_found_; n_chosen_++) {
+      const int law = law_of(first_[n_chosen_], neighbour_[n_chosen_] & job_.list.mask);
+      LawPairs &l = of_law_[law];
+      l.pair[l.n++] = n_chosen_;
+      if (l.n == kLanes) compute_waiting(law);
     }
-    return n_found_;
+    if (n_found_ < most_wait_ && !all) return;
+    for (int law = 0; law < job_.n_laws; law++)
+      if (of_law_[law].n > 0) compute_waiting(law);
+    add_results(0, n_found_);
+    n_found_ = n_chosen_ = 0;
   }
-  bool is_full() const
+  // Computes the pairs of a law that wait, and records what they do and keep.
+  void compute_waiting(int law)
   {
-    return std::any_of(of_law_.begin(), of_law_.end(),
-                       [](const LawLanes &l) { return l.n == kLanes; });
-  }
-
-  // Computes these pairs, which have their lanes, and adds their forces.
-  void compute(int begin, int end)
-  {
-    const std::size_t kept = keeps_ ? begin_history(begin, end) : 0;
-    for (int law = 0; law < job_.n_laws; law++) {
-      LawLanes &l = of_law_[law];
-      if (l.n == 0) continue;
-      if (kOne)
-        for (int k = 0; k < l.n; k++) l.pair[k] = begin + k;
-      gather(l);
-      if (keeps_) set_history(l, kept, begin);
-      const PairLaw &of = job_.laws[law];
-      if (wide_ && of.evaluate_wide)
-        of.evaluate_wide(of.law, l.lanes, l.n, job_.dt);
-      else
-        of.evaluate_lanes(of.law, l.lanes, l.n, job_.dt, job_.update);
-      if (keeps_ && !kOne) write_history(l, kept, begin);
+    LawPairs &l = of_law_[law];
+    gather(l);
+    if (keeps_) read_kept(law, l);
+    evaluate(law, l.n);
+    if (keeps_) write_kept(law, l);
+    for (int k = 0; k < l.n; k++) {
+      Real *const to = record_[l.pair[k]].numbers;
+      for (int d = 0; d < 3; d++) {
+        to[d] = lanes_.force[d][k];
+        to[3 + d] = lanes_.torque_i[d][k];
+        to[6 + d] = lanes_.torque_j[d][k];
+      }
     }
-    if (has_factors_ || job_.heat)
-      add_forces<true>(begin, end);
-    else
-      add_forces<false>(begin, end);
-    if (job_.record) record(begin, end);
+    if (has_more_)
+      for (int k = 0; k < l.n; k++)
+        more_[l.pair[k]] = {job_.laws[law].has_heat ? lanes_.heat[k] : 0, lanes_.energy[k]};
+    l.n = 0;
   }
 
-  void gather(LawLanes &l) const
+  void evaluate(int law, int n)
+  {
+    const PairLaw &of = job_.laws[law];
+    if (!wide_ || !of.evaluate_wide) {
+      of.evaluate_lanes(of.law, lanes_, n, job_.dt, job_.update);
+      return;
+    }
+    if (of.prepare != prepared_ || of.choices != choices_) {
+      of.prepare(of.law, lanes_);
+      prepared_ = of.prepare;
+      choices_ = of.choices;
+    }
+    of.evaluate_wide(of.law, lanes_, n, job_.dt);
+  }
+
+  void gather(const LawPairs &l)
   {
     const int n = l.n, mask = job_.list.mask;
-    PairLanes &lanes = l.lanes;
+    PairLanes &lanes = lanes_;
     int i[kLanes], j[kLanes];
     for (int k = 0; k < n; k++) {
       i[k] = first_[l.pair[k]];
@@ -315,40 +356,85 @@ class PairStep {
     }
     return job_.history->append(keys + begin, end - begin);
   }
-  // Says where the lanes read and write what their pairs keep: with one law in the histories, where the pairs lie side by side
-  // as in the lanes.
-  void set_history(LawLanes &l, std::size_t kept, int begin) const
+  // Calls act(k, number) for the numbers of the memory that a law stores: the k-th in the history, which number of the memory it is.
+  template <class Act>
+  void for_stored(int law, const Act &act) const
   {
-    for (int m = 0; m < l.n_stored; m++) {
-      const int number = l.stored[m];
+    int k = 0;
+    for (std::uint32_t left = job_.laws[law].stored; left != 0; left &= left - 1)
+      act(k++, static_cast<int>(lowest_bit(left)));
+  }
+  // With one law: says where the lanes read and write what their pairs keep, which is in the histories, where the pairs lie side by
+  // side as in the lanes, in the new one from number `kept` on.
+  void set_history(const LawPairs &l, std::size_t kept)
+  {
+    for_stored(0, [&](int m, int number) {
       const Real *const old = job_.old->column(m);
-      if (kOne) l.lanes.after[number] = job_.history->column(m) + kept;
-      l.lanes.before[number] = kOne && same_ ? old + same_from_ : l.lanes.memory[number];
-      if (kOne && same_) continue;
+      lanes_.after[number] = job_.history->column(m) + kept;
+      lanes_.before[number] = same_ ? old + same_from_ : lanes_.memory[number];
+      if (same_) return;
       for (int k = 0; k < l.n; k++) {
-        const std::size_t pair = same_ ? same_from_ + l.pair[k] - begin : old_[l.pair[k]];
-        l.lanes.memory[number][k] = pair == kNone ? 0 : old[pair];
+        const std::size_t pair = old_[l.pair[k]];
+        lanes_.memory[number][k] = pair == kNone ? 0 : old[pair];
       }
+    });
+  }
+  // With several laws: records what these pairs have kept, side by side for each pair.
+  void record_kept(int begin, int end)
+  {
+    for (int k = 0; k < most_stored_; k++) {
+      const Real *const old = job_.old->column(k);
+      if (same_)
+        for (int m = begin; m < end; m++) record_[m].numbers[k] = old[same_from_ + (m - begin)];
+      else
+        for (int m = begin; m < end; m++)
+          record_[m].numbers[k] = old_[m] == kNone ? 0 : old[old_[m]];
     }
   }
-  // The pair `begin` of those that are found is number `kept` of the history. Laws of other types may keep more numbers.
-  void write_history(const LawLanes &l, std::size_t kept, int begin) const
+  void read_kept(int law, const LawPairs &l)
   {
+    std::fill_n(lanes_.before, kLaneNumbers, kNothing);
+    for_stored(law, [&](int m, int number) {
+      lanes_.before[number] = lanes_.memory[number];
+      for (int k = 0; k < l.n; k++) lanes_.memory[number][k] = record_[l.pair[k]].numbers[m];
+    });
+  }
+  // Laws of other types may keep more numbers.
+  void write_kept(int law, const LawPairs &l) const
+  {
+    const Real *from[kLaneNumbers];
+    std::fill_n(from, kLaneNumbers, kNothing);
+    for_stored(law, [&](int m, int number) { from[m] = lanes_.memory[number]; });
     for (int m = 0; m < job_.history->width(); m++) {
-      Real *const to = job_.history->column(m) + kept;
-      const Real *const from = m < l.n_stored ? l.lanes.memory[l.stored[m]] : nullptr;
-      for (int k = 0; k < l.n; k++) to[l.pair[k] - begin] = from ? from[k] : 0;
+      Real *const to = job_.history->column(m) + kept_;
+      const Real *const now = m < kLaneNumbers ? from[m] : kNothing;
+      for (int k = 0; k < l.n; k++) to[l.pair[k]] = now[k];
     }
   }
 
   // ---- results --------------------------------------------------------------------------
 
-  struct Lane {
-    int law, lane;
-  };
-  const PairLanes &lanes_of(int m) const { return of_law_[kOne ? 0 : lane_[m].law].lanes; }
-  int lane_of(int m, int begin) const { return kOne ? m - begin : lane_[m].lane; }
+  // Returns what a pair does, of those from `begin` on that have been computed.
+  PairResult result(int m, int begin) const
+  {
+    if (!kOne) {
+      const Real *const r = record_[m].numbers;
+      const More more = has_more_ ? more_[m] : More{0, 0};
+      return {{r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}, more.heat, more.energy};
+    }
+    const int k = m - begin;
+    return {lane_vec(lanes_.force, k), lane_vec(lanes_.torque_i, k), lane_vec(lanes_.torque_j, k),
+            lanes_.heat[k], lanes_.energy[k]};
+  }
 
+  void add_results(int begin, int end)
+  {
+    if (has_factors_ || job_.heat)
+      add_forces<true>(begin, end);
+    else
+      add_forces<false>(begin, end);
+    if (job_.record) record(begin, end);
+  }
   // Adds forces in the order of the list: the pairs of a row are summed, and then added to its grain. kMore: with factors and heat.
   template <bool kMore>
   void add_forces(int begin, int end)
@@ -366,10 +452,9 @@ class PairStep {
         if (kMore) add_heat(sum_of);
         sum_of = first[m];
       }
-      const PairLanes &lanes = lanes_of(m);
-      const int k = lane_of(m, begin), j = neighbour[m] & mask;
-      Vec3 on_i = lane_vec(lanes.force, k), turns_i = lane_vec(lanes.torque_i, k),
-           turns_j = lane_vec(lanes.torque_j, k);
+      const PairResult of_pair = result(m, begin);
+      const int j = neighbour[m] & mask;
+      Vec3 on_i = of_pair.force, turns_i = of_pair.torque_i, turns_j = of_pair.torque_j;
       if (kMore) {
         const Real factor = factor_of(neighbour[m]);
         on_i = factor * on_i;
@@ -382,9 +467,9 @@ class PairStep {
         take_from(all_force, index_of(j), on_i);
         add_to(all_torque, index_of(j), turns_j);
       }
-      if (kMore && job_.heat && job_.laws[kOne ? 0 : lane_[m].law].has_heat) {
-        heat_ += lanes.heat[k];
-        if (j < n_both) job_.heat[j] -= lanes.heat[k];
+      if (kMore && job_.heat && (!kOne || job_.laws[0].has_heat)) {
+        heat_ += of_pair.heat;
+        if (j < n_both) job_.heat[j] -= of_pair.heat;
       }
     }
     sum_of_ = sum_of;
@@ -399,28 +484,44 @@ class PairStep {
   void record(int begin, int end) const
   {
     for (int m = begin; m < end; m++) {
-      const PairLanes &lanes = lanes_of(m);
-      const int k = lane_of(m, begin);
+      const PairResult of_pair = result(m, begin);
+      const int i = first_[m], j = neighbour_[m] & job_.list.mask;
       const Real factor = factor_of(neighbour_[m]);
-      job_.record->push_back({first_[m], neighbour_[m] & job_.list.mask, lane_vec(lanes.offset, k),
-                              factor * lane_vec(lanes.force, k), factor * lanes.energy[k]});
+      job_.record->push_back({i, j, vec_of(job_.x, i) - vec_of(job_.x, j), factor * of_pair.force,
+                              factor * of_pair.energy});
     }
   }
+
+  struct More {
+    Real heat, energy;
+  };
 
   const PairJob &job_;
   const bool keeps_, wide_;
   const int n_both_;    // forces act on both grains of a pair whose second is below it
   bool beyond_contact_ = false, has_factors_ = false;
-  // Pairs that are found: first grain, neighbour as it is in the list, number in the list; number in the last step's history, lane.
-  int n_found_ = 0;
+  // Of several laws: are heat and energy asked for, and how many pairs are found before all are computed?
+  const bool has_more_;
+  const int most_wait_;
+  // Pairs that are found: first grain, neighbour as it is in the list, number in the list; number in the last step's history. With
+  // several laws the first n_chosen_ of them wait or are computed, and have records.
+  int n_found_ = 0, n_chosen_ = 0;
   std::vector<int> first_, neighbour_;
   std::vector<std::size_t> key_, old_;
-  std::vector<Lane> lane_;
-  std::vector<LawLanes> of_law_;
-  // Of the last step's history: pairs before last_ have been looked at. Are the pairs that are computed now, from same_from_ on,
+  std::vector<PairRecord> record_;
+  std::vector<More> more_;
+  std::vector<LawPairs> of_law_;
+  // The lanes, and for which choices they have been prepared.
+  PairLanes lanes_ = {};
+  void (*prepared_)(const LawBytes &, PairLanes &) = nullptr;
+  std::uint64_t choices_ = 0;
+  // Of the last step's history: pairs before last_ have been looked at. Are the pairs that were looked at last, from same_from_ on,
   // the same?
   std::size_t last_ = 0, same_from_ = 0;
   bool same_ = false;
+  // With several laws: the number in the history of the first pair that is found, and how many numbers a law stores at most.
+  std::size_t kept_ = 0;
+  int most_stored_ = 0;
   // What the pairs of a row have given to its grain so far.
   int sum_of_ = 0;
   Vec3 force_ = {0, 0, 0}, torque_ = {0, 0, 0};

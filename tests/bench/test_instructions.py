@@ -5,7 +5,8 @@
 """A step on the CPU executes no more instructions per sphere than it did: counted by valgrind, so
 that a slower step shows without timing.
 
-usage: test_instructions.py [--keep], with LSDCD_COUNT_STEPS and LSDCD_COUNT_SHAPES (the programs) and LSDCD_COMPILER set
+usage: test_instructions.py [--keep], with LSDCD_COUNT_STEPS, LSDCD_COUNT_SHAPES and LSDCD_COUNT_PAIRS (the programs) and
+LSDCD_COMPILER set
 """
 import os
 import pathlib
@@ -39,5 +40,7 @@ found["hertz/history with energy, near list kept"] = count(os.environ["LSDCD_COU
 for i, kind in enumerate(("sphere", "ellipsoid 2:1:1", "n = 4", "n = 8")):
     for k, place in enumerate(("at faces", "at edges", "in folds")):
         found[f"{kind}, {place}"] = count(os.environ["LSDCD_COUNT_SHAPES"], str(i), str(k))
+for types in (1, 2, 20, 40):
+    found[f"pairs, types with laws of their own: {types}"] = count(os.environ["LSDCD_COUNT_PAIRS"], str(types))
 sys.exit(kept_numbers.compare(pathlib.Path(__file__).with_name("step_instructions.csv"),
                               os.environ["LSDCD_COMPILER"], found, ROOM, "per sphere and step") > 0)

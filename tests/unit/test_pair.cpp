@@ -735,6 +735,48 @@ TEST(pairs, of_several_laws_have_each_its_own)
   EXPECT_EQ(one.torque, both.torque);
 }
 
+// Pairs of many types wait for others with their law, in lanes that are shared by all, and have the bits of a law of all types. There
+// are 300 laws here, and more pairs than wait at once.
+TEST(pairs, of_many_types_have_the_bits_of_one)
+{
+  constexpr int kTypes = 24, kGrains = 500;
+  const ContactLaw law = law_of_words(kLaws[5]);
+  Grains one = random_grains(kGrains, 9), many = random_grains(kGrains, 9);
+  one.set_law(law);
+  many.n_types = kTypes;
+  many.law_of.assign((kTypes + 1) * (kTypes + 1), 0);
+  for (int i = 1; i <= kTypes; i++)
+    for (int j = i; j <= kTypes; j++) {
+      many.law_of[i * (kTypes + 1) + j] = many.law_of[j * (kTypes + 1) + i] =
+          static_cast<int>(many.laws.size());
+      many.laws.push_back(pair_law(law));
+    }
+  for (PairHistory &h : many.history) h.begin(3 + law.n_extra());
+  std::mt19937 random(1);
+  for (int &type : many.type) type = 1 + static_cast<int>(random() % kTypes);
+  std::vector<RecordedPair> of_one, of_many;
+  one.record = &of_one;
+  many.record = &of_many;
+  for (Grains *g : {&one, &many}) {
+    for (Real &x : g->x) x *= 0.5;    // each touches many
+    g->set_list();
+    for (int step = 0; step < 4; step++) {
+      for (int k = 0; k < 3 * g->n; k++) g->x[k] += 0.1 * g->v[k];
+      g->step();
+    }
+  }
+  EXPECT_GT(kept(one).size() / (1 + one.history[0].width()), 20000u);
+  EXPECT_EQ(one.force, many.force);
+  EXPECT_EQ(one.torque, many.torque);
+  EXPECT_EQ(kept(one), kept(many));
+  ASSERT_EQ(of_one.size(), of_many.size());
+  for (std::size_t k = 0; k < of_one.size(); k++) {
+    ASSERT_EQ(of_one[k].offset, of_many[k].offset);
+    ASSERT_EQ(of_one[k].force, of_many[k].force);
+    ASSERT_EQ(of_one[k].energy, of_many[k].energy);
+  }
+}
+
 TEST(partners, go_in_a_message_as_they_are)
 {
   Partners a({4}), b({4});
