@@ -203,7 +203,7 @@ void FixSpringsLsdcd::tell_cleared()
 double FixSpringsLsdcd::near_images() const
 {
   const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
-  // Of two images in a list one may touch. Lists that do not ask for radii, as those of adhesion, reach as far as a pair style says.
+  // Of two images in a list one may touch. Lists that do not ask for radii, as those of adhesion may, reach as far as a pair style says.
   const double reach =
       largest_pair + std::max(largest_pair + neighbor->skin, neighbor->cutneighmax);
   double least = reach;

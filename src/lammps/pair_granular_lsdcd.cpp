@@ -278,9 +278,24 @@ int PairGranularLsdcd::kept_width() const
   return springs ? springs->partners.width() : 0;
 }
 
+// How far beyond touch adhesion may hold grains, be they as large as any that are known.
+double PairGranularLsdcd::longest_hold()
+{
+  double largest = std::max(cutoff, 0.0) / 2;
+  for (const lsdcd::PairCoeff &coeff : coeffs) largest = std::max(largest, coeff.cutoff / 2);
+  for (const Radii &r : radii) largest = std::max({largest, r.moving, r.frozen});
+  return radii2cut(largest, largest) - 2 * largest;
+}
+
+// A list by radii reaches beyond touch by the skin. With half of it grains that adhesion holds are in the list, also those that part in
+// the step in which it is made; the other half is for grains that grow, where they may. A list by types has the same for all grains of a
+// type, though the large ones alone reach so far.
 void PairGranularLsdcd::request_list()
 {
-  lsdcd::request_half_list(*neighbor, this, instance_me, !beyond_contact);
+  const bool may_grow = adapts || !changing.empty();
+  lsdcd::request_half_list(*neighbor, this, instance_me,
+                           longest_hold() == 0 ||
+                               (!may_grow && longest_hold() <= neighbor->skin / 2));
 }
 
 // LAMMPS's order of fixes is that in which they were made: the springs take the place that was kept for them.

@@ -75,6 +75,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   void set_springs();
   void check_order() const;
   double reach(int i, int j, double radius, double other) const;
+  double longest_hold();
   lsdcd::PairJob job();
   void tell_laws();
   void check_step();

@@ -10,7 +10,6 @@
 #include "pair/pair_kernel.h"
 #include "pair/pair_lanes.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>

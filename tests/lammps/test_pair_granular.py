@@ -453,6 +453,53 @@ def test_minimization(folder):
     at_most("minimization", lmp.largest_difference(*dumps), 1e-8)
 
 
+def listed(said):
+    return [int(n) for n in re.findall(r"Total # of neighbors = (\d+)", said)]
+
+
+def test_lists_of_adhesion(folder):
+    """Lists of jkr are by radii: a large grain among small ones of its type has only those for neighbours that are near."""
+    rng, skin, large = random.Random(4), 0.05, 1.0
+    grains, rows = [(0.0, 0.0, 0.0, large)], []
+    while len(grains) < 400:
+        x = [rng.uniform(-2, 2) for _ in range(3)]
+        if sum(a * a for a in x)**0.5 > large:
+            grains.append((*x, 0.1))
+    for i, (x, y, z, r) in enumerate(grains):
+        rows.append(f"{i + 1} 1 {2 * r} 1 {x!r} {y!r} {z!r}")
+    near = sum((a[0] - b[0])**2 + (a[1] - b[1])**2 + (a[2] - b[2])**2 <= (a[3] + b[3] + skin)**2 for i, a in enumerate(grains) for b in grains[:i])
+    (folder / "sizes.data").write_text(f"grains\n\n{len(rows)} atoms\n1 atom types\n\n" + "".join(f"-3 3 {a}lo {a}hi\n" for a in "xyz") +
+                                       "\nAtoms # sphere\n\n" + "\n".join(rows) + "\n")
+    said = lmp.run_well(lmp.head() + f"read_data sizes.data\n{ours('* * jkr 1e4 5 0.3 0.001 tangential mindlin NULL 0.5 0.4')}\n"
+                        f"neighbor {skin} bin\nfix move all nve/sphere\nrun 0\n", folder)
+    fact("pairs in the list are those within the skin of touch", listed(said) == [near], f"{listed(said)} and {near}")
+
+
+@pytest.mark.parametrize("gamma", [1, 40])
+def test_held_beyond_the_skin(folder, gamma):
+    """Adhesion holds grains that are pulled apart as far as with a wide skin, whether a narrow one is more than its reach or less, while
+    lists are made anew in each step."""
+    seen = []
+    for skin in (0.02, 0.5):
+        lmp.run_well(lmp.head("-3 3 -3 3 -3 3") + f"""\
+create_atoms 1 single 0 0 0 units box
+create_atoms 1 single 0.999 0 0 units box
+set group all diameter 1 mass 1
+{ours(f"* * jkr 1e4 0 0.3 {gamma} tangential linear_nohistory 0 0 damping velocity")}
+neighbor {skin} bin
+neigh_modify delay 0 every 1 check no
+group two id 2
+fix move two move linear 1 0 0 units box
+timestep 1e-4
+{dump("out", 20)}run 1000
+""", folder)
+        seen.append(lmp.read_dump(folder / "out"))
+    pulled = [row[2][9] for row in seen[0].values()]
+    far = max(row[2][0] for row in seen[0].values() if row[2][9] < 0) - 1
+    fact("the pull lasts beyond half of the skin only if it is strong", (far > 0.01) == (gamma > 1) and 0 < far < 0.09 and pulled[-1] == 0, str(far))
+    at_most("with a wide skin", lmp.largest_difference(*seen), 0)
+
+
 def test_neighbours_by_size(folder):
     """LAMMPS asks the style for cutoffs of radii where it sorts grains by their size."""
     law = ours("* * " + GRANULAR)
