@@ -453,6 +453,41 @@ def test_minimization(folder):
     at_most("minimization", lmp.largest_difference(*dumps), 1e-8)
 
 
+IN_SETUPS = ["hertz 2000 5 tangential linear_history 1500 0.5 0.4 damping viscoelastic",
+             "hertz/material 1e4 5 0.3 tangential mindlin/force NULL 0.5 0.4 rolling sds 100 3 0.1 twisting sds 10 2 0.02",
+             FULL, "hertz/material 1e4 5 0.3 tangential mindlin_liggghts NULL 0.5 0.4 rolling epsd2 0.3"]
+
+
+@pytest.mark.parametrize("law", IN_SETUPS)
+def test_setups(folder, law):
+    """A setup moves no spring: grains that are stopped have the friction and couples of their springs alone, the same bits with more setups
+    before, of which each sees velocities of another time than the step before it."""
+    seen = []
+    for more in ("", "run 0\n", "min_style quickmin\nminimize 0 0 0 0\n"):
+        lmp.run_well(lmp.head("-3 3 -3 3 -3 3") + f"""\
+create_atoms 1 single 0 0 0 units box
+create_atoms 1 single 0.99 0 0 units box
+set group all diameter 1 mass 1
+set atom 1 omega 5 3 20
+set atom 2 vx -0.5 vy 0.3
+{ours("* * " + law)}
+neighbor 0.1 bin
+fix move all nve/sphere
+timestep 1e-4
+run 100
+{more}velocity all set 0 0 0 units box
+set group all omega 0 0 0
+compute p all pair/local p1 p2 p3 p5 p6 p7 p9
+dump p all local 1 pairs c_p[1] c_p[2] c_p[3] c_p[4] c_p[5] c_p[6] c_p[7]
+dump_modify p format float %.17g
+run 0
+""", folder)
+        seen.append((folder / "pairs").read_text().split("\n")[-2].split())
+    fact("the spring of the friction is stretched", abs(float(seen[0][1])) > 1e-3, str(seen[0]))
+    fact("springs are the same with more setups", seen[1] == seen[0], str(seen[1]))
+    fact("springs are the same after a minimization that moves nothing", seen[2] == seen[0], str(seen[2]))
+
+
 def listed(said):
     return [int(n) for n in re.findall(r"Total # of neighbors = (\d+)", said)]
 
