@@ -6,6 +6,7 @@
 #include "backend/threads.h"
 #include "geometry/triangles_meet.h"
 #include "mesh/box_tree.h"
+#include "mesh/close_faces.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -122,26 +123,12 @@ class FacePairs {
   SelfMeetings found_;
 };
 
-Box box_of(const WeldedMesh &mesh, int face)
-{
-  const auto &v = mesh.faces[face];
-  return box_around(mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]);
-}
-
-BoxTree tree_of(const WeldedMesh &mesh, const std::vector<int> &faces)
-{
-  std::vector<Box> boxes;
-  boxes.reserve(faces.size());
-  for (const int f : faces) boxes.push_back(box_of(mesh, f));
-  return BoxTree(boxes);
-}
-
-// All pairs of faces whose boxes overlap.
+// All pairs of faces that may meet.
 void add_near(const WeldedMesh &mesh, FacePairs &pairs)
 {
   std::vector<int> all(mesh.images.any() ? mesh.images.n_faces : mesh.faces.size());
   std::iota(all.begin(), all.end(), 0);
-  tree_of(mesh, all).visit_pairs([&](int f, int g) { pairs.add(f, g); });
+  CloseFaces(mesh, all).visit_pairs([&](int f, int g) { pairs.add(f, g); });
 }
 
 }    // namespace
@@ -172,14 +159,14 @@ SelfMeetings shells_meet(const WeldedMesh &mesh, const std::vector<std::vector<i
       for (const int v : mesh.faces[f]) extend(around, mesh.vertices[v]);
     boxes.push_back(around);
   }
-  std::vector<std::unique_ptr<BoxTree>> trees(shells.size());
-  const auto tree = [&](int i) -> const BoxTree & {
-    if (!trees[i]) trees[i] = std::make_unique<BoxTree>(tree_of(mesh, shells[i]));
-    return *trees[i];
+  std::vector<std::unique_ptr<CloseFaces>> close(shells.size());
+  const auto faces = [&](int i) -> const CloseFaces & {
+    if (!close[i]) close[i] = std::make_unique<CloseFaces>(mesh, shells[i]);
+    return *close[i];
   };
   FacePairs pairs(mesh);
   BoxTree(boxes).visit_pairs([&](int i, int j) {
-    tree(i).visit_pairs(tree(j), [&](int f, int g) { pairs.add(shells[i][f], shells[j][g]); });
+    faces(i).visit_pairs(faces(j), [&](int f, int g) { pairs.add(f, g); });
   });
   return pairs.found();
 }

@@ -60,7 +60,8 @@ int side_when_moved(int u, int v, const Vec3 &a, const Vec3 &b)
   return along_u != 0 ? along_u : sign_of(b[u] - a[u]);
 }
 
-constexpr Real kCellsPerFacet = 2;
+// A cell is at least this part of the mean length of facets: n long ones, as in a fan, would cross sqrt(n) cells each.
+constexpr Real kCellsPerFacet = 2, kLeastOfLength = 1. / 16;
 constexpr int kMaxCellsAlong = 2048;
 // On a ray's way: from here on a tree is quicker, and so many are worth its memory.
 constexpr std::uint32_t kMany = 256, kWorthATree = 1024;
@@ -150,7 +151,11 @@ void WindingNumber::choose_cells()
   const auto cells = [&] {
     return std::max(along(0), Real(1)) * std::max(along(1), Real(1)) * std::max(along(2), Real(1));
   };
-  for (int i = 0; i < 200 && cells() < wanted; i++) cell /= 1.1;
+  Real lengths = 0;
+  for (const Triangle &f : facets_)
+    lengths += std::max({norm(f[1] - f[0]), norm(f[2] - f[1]), norm(f[0] - f[2])});
+  const Real least = kLeastOfLength * lengths / static_cast<Real>(facets_.size());
+  for (int i = 0; i < 200 && cells() < wanted && cell > least; i++) cell /= 1.1;
   for (int k = 0; k < 3; k++) {
     n_[k] = std::max(static_cast<int>(along(k)), 1);
     length_[k] = size[k] / n_[k];

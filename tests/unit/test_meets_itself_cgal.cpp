@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -33,6 +34,38 @@ std::size_t pairs_of_cgal(const WeldedMesh &mesh)
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
   CGAL::Polygon_mesh_processing::self_intersections(m, std::back_inserter(pairs));
   return pairs.size();
+}
+
+// Closed frusta of two fans and long facets, whose rims are folded. More faces than those of which pairs are taken by boxes alone.
+TEST(meets_itself, has_the_pairs_of_CGAL_in_fans_and_among_long_facets)
+{
+  std::mt19937_64 dice(7);
+  const Vec3 x = {0.36, 0.48, -0.8}, y = {-0.8, 0.6, 0}, z = cross(x, y);
+  std::size_t pairs = 0;
+  for (int k = 0; k < 60; k++) {
+    const int n = 150;
+    const Real step = 2 * std::acos(Real(-1)) / n, height = k % 3 == 0 ? 0.01 : 0.5;
+    std::uniform_real_distribution<Real> off(-1, 1);
+    std::vector<Vec3> rim[2];
+    for (const int upper : {0, 1})
+      for (int i = 0; i < n; i++) {
+        const Real t = step * (i + (k % 4) * off(dice)), r = upper ? 0.7 : 1,
+                   rise = k % 2 ? step * off(dice) : 0;
+        rim[upper].push_back(r * (std::cos(t) * x + std::sin(t) * y) + (upper * height + rise) * z);
+      }
+    TriangleSoup soup;
+    for (int i = 0; i < n; i++) {
+      const int j = (i + 1) % n;
+      const Vec3 &a = rim[0][i], &b = rim[0][j], &c = rim[1][i], &d = rim[1][j];
+      for (const Vec3 &corner : {Vec3{0, 0, 0}, b, a, a, b, d, a, d, c, height * z, c, d})
+        soup.corners.push_back(corner);
+    }
+    const WeldedMesh mesh = weld(soup, 0);
+    const SelfMeetings found = meets_itself(mesh);
+    EXPECT_EQ(found.pairs, pairs_of_cgal(mesh)) << k;
+    pairs += found.pairs;
+  }
+  EXPECT_GT(pairs, 1000u);
 }
 
 // On a lattice corners lie on facets, edges cross edges, and facets lie in common planes.
