@@ -25,8 +25,10 @@ class FileSeries {
 
   const std::string &path() const { return path_; }    // of the list
 
-  // Continues the list of an earlier run, if there is one.
-  void read();
+  // Before the first add(): goes on with the list that an earlier run wrote, if there is one, or begins anew. A file of this name that
+  // is no such list, or, where it is to go on, not as write() leaves it, is renamed, and the entries that it has as whole lines are
+  // taken. Returns what became of it, for a warning; empty: nothing to tell. Throws InputError where it cannot be renamed.
+  std::string begin(bool continues);
 
   // Adds the file of this step at the end. Removes the same file and files of later times, which an
   // earlier run may have listed.
@@ -39,6 +41,9 @@ class FileSeries {
     double time;
     std::string file;    // without its folder, escaped for XML
   };
+
+  static bool read_entry(const std::string &line, Entry &entry);
+  std::string text() const;    // of the list
 
   std::string files_, path_;
   std::vector<Entry> entries_;

@@ -11,6 +11,7 @@
 #include "wall/spec/run_files.h"
 
 #include <numeric>
+#include <utility>
 
 namespace lsdcd {
 
@@ -90,16 +91,19 @@ void WallFiles::write_fields(int mesh, std::int64_t step, double time, const Pos
     return;
   loads.begin_average(mesh);
   if (file == name) return;
+  std::string renamed;    // on the first process
   const auto list = [&] {
     std::unique_ptr<FileSeries> &series = series_[mesh];
     if (!series) {
-      series = std::make_unique<FileSeries>(name);
-      if (continues_) series->read();
+      FileSeries begun(name);
+      renamed = begun.begin(continues_);
+      series = std::make_unique<FileSeries>(std::move(begun));
     }
     series->add(step, time);
     series->write();
   };
   try_to_write("the list of mesh_fields lacks this step until it can be written", list);
+  if (!renamed.empty()) host_.warn(renamed);
 }
 
 void WallFiles::write_due(std::int64_t step, double time, const std::vector<PosedMesh> &meshes,

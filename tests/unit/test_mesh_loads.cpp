@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Loads and wear of the parts of a wall, and their file.
+#include "base/atomic_file.h"
 #include "output/file_series.h"
 #include "output/mesh_fields.h"
 #include "support/comma_locale.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace lsdcd::test_mesh_loads {
 namespace {
@@ -169,7 +171,7 @@ void expect_series()
   for (const int step : {1, 2, 3}) first.add(step, 0.1 * step);
   first.write();
   FileSeries next(name);
-  next.read();
+  EXPECT_EQ(next.begin(true), "");
   next.add(2, 0.25);    // of this step there is another file now, and step 3 is to come
   next.write();
   EXPECT_EQ(
@@ -184,6 +186,58 @@ void expect_series()
 TEST(file_series, lists_files_with_times_and_reads_its_own_list)
 {
   expect_series();
+}
+
+// Each is the list of an earlier run that something has damaged: it is kept beside the new one, which has the entries that are whole.
+TEST(file_series, keeps_a_damaged_list_beside_the_one_that_goes_on)
+{
+  const TempDir dir;
+  const std::string
+      name = dir.path("f_*.vtp"),
+      begin =
+          "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n",
+      end = "</Collection>\n</VTKFile>\n";
+  const auto entry = [](const std::string &time, const std::string &file) {
+    return "<DataSet timestep=\"" + time + "\" part=\"0\" file=\"" + file + "\"/>\n";
+  };
+  const std::string one = entry("1", "f_1.vtp"), two = entry("2", "f_2.vtp"),
+                    last = entry("3", "f_3.vtp");
+  const std::string damaged[] = {begin + one,
+                                 begin + one + two.substr(0, 20),
+                                 begin + one + entry("2", std::string("f\0_2.vtp", 8)) + end,
+                                 begin + one + entry("2", "f_<2.vtp") + end,
+                                 begin + one + entry("2", "f_&2.vtp") + end,
+                                 begin + one + entry("2", "f_\xff.vtp") + end,
+                                 begin + one + entry("1e400", "f_2.vtp") + end,
+                                 begin + one + entry("2", "f_2.vtp\"/><DataSet file=\"x") + end,
+                                 "my notes\n" + one};
+  for (std::size_t k = 0; k < std::size(damaged); k++) {
+    FileSeries series(name);
+    write_whole_file(series.path(), damaged[k]);
+    const std::string kept = series.path() + ".old" + (k > 0 ? std::to_string(k + 1) : "");
+    const std::string told = series.begin(true);
+    EXPECT_NE(told.find("is kept as '" + kept + "': the new one has 1 file of it"), told.npos)
+        << k << ": " << told;
+    series.add(3, 3);
+    series.write();
+    EXPECT_EQ(content(kept), damaged[k]) << k;
+    EXPECT_EQ(content(series.path()), begin + one + last + end) << k;
+  }
+}
+
+TEST(file_series, replaces_its_own_list_and_no_file_of_another_program)
+{
+  const TempDir dir;
+  FileSeries own(dir.path("f_*.vtp"));
+  own.add(1, 1);
+  own.write();
+  FileSeries anew(dir.path("f_*.vtp"));
+  EXPECT_EQ(anew.begin(false), "");
+  anew.write();
+  EXPECT_EQ(content(anew.path()).find("f_1.vtp"), std::string::npos);
+  write_whole_file(anew.path(), "my notes\n");
+  EXPECT_NE(FileSeries(dir.path("f_*.vtp")).begin(false), "");
+  EXPECT_EQ(content(anew.path() + ".old"), "my notes\n");
 }
 
 // ParaView reads a list with points alone, and so does a run that goes on in another locale.
