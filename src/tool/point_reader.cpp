@@ -28,14 +28,27 @@ class LinesReader : public PointReader {
     while (block.size() < most && lines_.next()) {
       if (std::exchange(is_first_, false))
         take_names(lines_.are_names() ? lines_.fields() : lines_.names_of_comment());
-      if (!lines_.are_names())
-        for (const std::size_t c : column_)
-          block.xyz.push_back(number<double>(lines_.file(), lines_.fields(), c));
+      if (lines_.are_names()) continue;
+      check_columns();
+      for (const std::size_t c : column_)
+        block.xyz.push_back(number<double>(lines_.file(), lines_.fields(), c));
     }
   }
   double share_read() const override { return lines_.file().share_read(); }
 
  private:
+  // A line with more columns than others may be two lines in one, of which the second point would be lost.
+  void check_columns()
+  {
+    if (columns_ == 0) {
+      columns_ = lines_.fields().size();
+      columns_at_ = lines_.file().line_number();
+    }
+    if (lines_.fields().size() != columns_)
+      lines_.fail("has " + counted(static_cast<std::int64_t>(lines_.fields().size()), "column") +
+                  ", and line " + std::to_string(columns_at_) + " has " + std::to_string(columns_) +
+                  ": give each line as many");
+  }
   void take_names(const Words &names)
   {
     for (int k = 0; k < 3 && !names.empty(); k++) {
@@ -49,6 +62,8 @@ class LinesReader : public PointReader {
   FieldLines lines_;
   bool is_first_ = true;
   std::array<std::size_t, 3> column_ = {0, 1, 2};
+  std::size_t columns_ = 0;    // of the first line of numbers
+  long columns_at_ = 0;
 };
 
 class DumpReader : public PointReader {
@@ -183,6 +198,74 @@ constexpr NumberType kNumberTypes[] = {
     number_type<std::uint64_t>("<u8"), number_type<std::uint32_t>("<u4"),
     number_type<std::uint16_t>("<u2"), number_type<std::uint8_t>("|u1")};
 
+// The header of an .npy file: a dict of Python with these three keys and no others, blanks between its parts and behind it.
+class NpyHeader {
+ public:
+  explicit NpyHeader(std::string_view text) : left_(text) {}
+
+  // False: it is something else, or an array of another shape than (n, 3).
+  bool read()
+  {
+    bool descr = false, order = false, shape = false;
+    if (!take("{")) return false;
+    while (!take("}")) {
+      if (!descr && take_key("descr"))
+        descr = take_type();
+      else if (!order && take_key("fortran_order"))
+        order = (by_columns_ = take("True")) || take("False");
+      else if (!shape && take_key("shape"))
+        shape =
+            take("(") && take_count() && take(",") && take("3") && (take(",") || true) && take(")");
+      else
+        return false;
+      if (!take(",") && left_.substr(0, 1) != "}") return false;
+    }
+    skip_blanks();
+    return descr && order && shape && left_.empty();
+  }
+
+  const NumberType *type() const { return type_; }
+  bool by_columns() const { return by_columns_; }    // in Fortran order
+  std::size_t rows() const { return rows_; }
+
+ private:
+  void skip_blanks()
+  {
+    left_.remove_prefix(std::min(left_.find_first_not_of(" \t\r\n"), left_.size()));
+  }
+  // Takes this and the blanks around it; false: something else comes.
+  bool take(std::string_view what)
+  {
+    skip_blanks();
+    if (left_.substr(0, what.size()) != what) return false;
+    left_.remove_prefix(what.size());
+    skip_blanks();
+    return true;
+  }
+  bool take_quoted(const std::string &text)
+  {
+    return take("'" + text + "'") || take("\"" + text + "\"");
+  }
+  bool take_key(const std::string &name) { return take_quoted(name) && take(":"); }
+  bool take_type()
+  {
+    for (const NumberType &type : kNumberTypes)
+      if (take_quoted(type.name)) type_ = &type;
+    return type_ != nullptr;
+  }
+  bool take_count()
+  {
+    const auto [end, error] = std::from_chars(left_.data(), left_.data() + left_.size(), rows_);
+    left_.remove_prefix(static_cast<std::size_t>(end - left_.data()));
+    return error == std::errc();
+  }
+
+  std::string_view left_;
+  const NumberType *type_ = nullptr;
+  bool by_columns_ = false;
+  std::size_t rows_ = 0;
+};
+
 class NpyReader : public PointReader {
  public:
   explicit NpyReader(InputFile file)
@@ -191,12 +274,11 @@ class NpyReader : public PointReader {
     const long start = file.taken();
     const std::string path = file.path();
     files_.push_back(std::move(file));
+    if (files_[0].size() > 0) check_size(static_cast<std::size_t>(files_[0].size() - start));
     if (!by_columns) return;
-    const std::size_t whole = std::max(files_[0].size() - start, 0L) / (3 * type_->bytes);
     if (files_[0].size() == 0)
       files_[0].fail("is in Fortran order, which cannot be read from a pipe; give the file, or "
                      "numpy.save(file, numpy.ascontiguousarray(points))");
-    if (whole < n_) fail_in_point(whole);
     for (const long column : {1, 2}) {
       files_.emplace_back(path);
       files_.back().go_to(start + column * static_cast<long>(n_ * type_->bytes));
@@ -216,6 +298,8 @@ class NpyReader : public PointReader {
       type_->to_doubles(raw_.data(), each, block.xyz.data() + k, stride);
     }
     done_ += n;
+    char more;
+    if (n == 0 && files_[0].size() == 0 && files_[0].bytes(&more, 1) > 0) fail_past_end();
   }
   double share_read() const override { return n_ > 0 ? double(done_) / double(n_) : 0; }
 
@@ -226,6 +310,10 @@ class NpyReader : public PointReader {
     char start[12] = {};
     const std::size_t short_bytes = 2;
     file.bytes(start, 8);
+    if (start[6] < 1 || start[6] > 3 || start[7] != 0)
+      file.fail("is of version " + std::to_string(static_cast<unsigned char>(start[6])) + "." +
+                std::to_string(static_cast<unsigned char>(start[7])) +
+                " of .npy files; those of 1.0 to 3.0 are read: numpy.save() writes them");
     const std::size_t length_bytes = start[6] == 1 ? short_bytes : 4;
     file.bytes(start + 8, length_bytes);
     std::size_t length = 0;
@@ -235,23 +323,25 @@ class NpyReader : public PointReader {
     std::string head(std::min(length, kMax), ' ');
     if (length > kMax || file.bytes(head.data(), length) < length)
       file.fail("its .npy header is truncated");
-    const auto is_space = [](char c) { return c == ' ' || c == '\n'; };
-    head.erase(std::remove_if(head.begin(), head.end(), is_space), head.end());
-    for (const NumberType &type : kNumberTypes)
-      if (head.find("'descr':'" + std::string(type.name) + "'") != head.npos) type_ = &type;
-    const bool by_columns = head.find("'fortran_order':True") != head.npos;
-    const std::size_t shape = head.find("'shape':(");
-    const char *at = head.data() + shape + 9;
-    if (!type_ || shape == head.npos ||
-        (!by_columns && head.find("'fortran_order':False") == head.npos))
-      fail_as_array(file, head);
-    const auto [end, error] = std::from_chars(at, head.data() + head.size(), n_);
-    if (error != std::errc() || std::strncmp(end, ",3)", 3) != 0) fail_as_array(file, head);
-    return by_columns;
+    NpyHeader header(head);
+    if (!header.read()) fail_as_array(file, head);
+    type_ = header.type();
+    n_ = header.rows();
+    return header.by_columns();
   }
-  [[noreturn]] static void fail_as_array(const InputFile &file, const std::string &head)
+  // `bytes`: of the file behind the header.
+  void check_size(std::size_t bytes) const
   {
-    file.fail("is an array " + head +
+    const std::size_t points = bytes / (3 * type_->bytes);
+    if (points < n_) fail_in_point(points);
+    if (bytes > n_ * 3 * type_->bytes) fail_past_end();
+  }
+  [[noreturn]] static void fail_as_array(const InputFile &file, std::string head)
+  {
+    for (char &c : head)
+      if (c < ' ' || c > '~') c = c == '\n' ? ' ' : '?';
+    head.erase(head.find_last_not_of(' ') + 1);
+    file.fail("has the .npy header " + head +
               "; points are (n, 3), of integers or little-endian float32 or float64: "
               "numpy.save(file, numpy.asarray(points, float).reshape(-1, 3))");
   }
@@ -259,6 +349,11 @@ class NpyReader : public PointReader {
   {
     files_[0].fail("ends in point " + std::to_string(point) + " of " + std::to_string(n_) +
                    "; it is truncated");
+  }
+  [[noreturn]] void fail_past_end() const
+  {
+    files_[0].fail("goes on behind the " + counted(static_cast<std::int64_t>(n_), "point") +
+                   " of its header; it is damaged, or has several arrays: save the points alone");
   }
 
   std::vector<InputFile> files_;    // in Fortran order one at each of the columns x, y and z
