@@ -101,8 +101,9 @@ if(TARGET lsdcdplugin)
       set(host ", liblammps0 (>= ${version}), liblammps0 (<< ${version}.0~)")
     endif()
   endif()
-  lsdcd_package(lammps lammps-lsdcd science "lsdcd-data (= ${PROJECT_VERSION})${host}"
+  # LAMMPS starts MPI also where it runs alone, and Open MPI then starts a program of mpi-default-bin, on which no library depends.
+  lsdcd_package(lammps lammps-lsdcd science "lsdcd-data (= ${PROJECT_VERSION}), mpi-default-bin${host}"
     "DEM walls from triangle meshes for LAMMPS"
-    "The plugin with fix wall/lsdcd, fix massflow/lsdcd, fix insert/lsdcd,\ncompute lsdcd/collide and compute lsdcd/energy, and lmp-lsdcd, a LAMMPS that has them built in.")
+    "The plugin with fix wall/lsdcd, fix massflow/lsdcd, fix insert/lsdcd,\ncompute lsdcd/collide and compute lsdcd/energy, and lmp-lsdcd,\na LAMMPS that has them built in.")
 endif()
 include(CPack)
