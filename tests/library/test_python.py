@@ -901,8 +901,8 @@ def test_what_begins_wrongly():
     wall.set_body(0, slider((-1, 1)))
     wall.step(none, none, none, zero, zero, none.copy(), none.copy(), 1e-3)
     fact("and the wall goes on", wall.body(0).coordinate == 0)
-    for name in ("/dev/zero", "/"):
-        refused(f"a table {name} is no file", "there is no such file", lambda: made(motions=[lsdcd.Motion.table(name)]), lsdcd.Error)
+    for name, what in (("/dev/zero", "a device"), ("/", "a directory")):
+        refused(f"a table {name} is no file", f"it is {what}; give the path of a file of text", lambda: made(motions=[lsdcd.Motion.table(name)]), lsdcd.Error)
     refused("a Motion has a kind", "Motion.linear()", lsdcd.Motion)
 
     def says(code, **environment):
