@@ -7,8 +7,8 @@
 usage: pages.py [--check] [--plots]
 
 Without words it writes the tables; --plots draws the pictures too (python3-matplotlib), and --check writes nothing and
-ends with 1 if a page does not hold what the rows say. A table stands between <!-- NAME:begin --> and <!-- NAME:end -->;
-all else of a page is written by hand. `./run bench NAME --keep` measures the rows.
+ends with 1 if a page does not hold what the rows say. A table, or words with figures, stands between <!-- NAME:begin --> and
+<!-- NAME:end -->; all else of a page is written by hand. `./run bench NAME --keep` measures the rows.
 """
 import argparse
 import csv
@@ -241,47 +241,163 @@ def costs(cpu, cuda, pairs):
                         table(several, [heads[k] for k in shown], lambda r: [cells(r)[k] for k in shown])])
 
 
-# ---- table of accuracy.md ----------------------------------------------------
+# ---- accuracy.md, and what README says of it -----------------------------------------------
 
-def settings(rows):
-    """What settings buy and cost, a line each: those that were measured on the CPU."""
-    def percent(share):
-        return "none" if float(share) == 0 else f"{100 * float(share):.2g} %"
+def tradeoff(mesh):
+    """Rows of `./run bench tradeoff` by device, as far as it was measured there."""
+    return {device: rows_of(f"tradeoff_{mesh}_{device}.csv") for device in DEVICES if (DATA / f"tradeoff_{mesh}_{device}.csv").exists()}
 
-    def error(value):
-        value = float(value)
-        return "0" if value < 1e-12 else f"{value:.0f}" if value >= 1 else f"{value:.1g}"
 
-    def megabytes(row):
-        return f"{float(row['bytes']) / 1e6:.3g}"
+def place(device, rows):
+    return "core" if device == "cpu" else rows[0]["device"].replace("CUDA, NVIDIA ", "")
 
-    shares = {}    # of the default length of cells, by which a GPU's cells are compared with a CPU's
-    for device in DEVICES:
-        mine = [r for r in rows if r["kind"] == device]
-        default = float(find(mine, default=1)["grid"])
-        for r in mine:
-            shares.setdefault(f"{float(r['grid']) / default:.2g}", {})[device] = r["grid"]
-    at_default = shares.pop("1")
-    on_cpu, on_gpu = (at_default[device] for device in DEVICES)
-    coarse = find(rows, kind="cuda", grid=on_cpu, corner="blend", nearest="all")
-    told = (f"* Cells of the default: {1000 * float(on_cpu):.3g} mm on a CPU, and {1000 * float(on_gpu):.3g} mm on a GPU, which chooses near spheres faster "
-            f"with them. With those of the CPU a step takes {short(coarse['ns_per_sphere'], 3)} ns on the GPU, and {megabytes(coarse)} MB. "
-            "What *nearest* misses is with the cells of the CPU.")
-    base = dict(corner="blend", nearest="all")
-    lines = [("**nothing** (the default)", at_default, base)]
-    lines += [(f"`grid` {s} times the default", at, base) for s, at in sorted(shares.items()) if set(at) == set(DEVICES)]
-    lines += [("`corner sum`", at_default, {**base, "corner": "sum"})]
-    lines += [(f"`nearest {n}`", at_default, {**base, "nearest": n}) for n in (8, 3, 2, 1)]
+
+def on_place(device, rows):
+    return "one core" if device == "cpu" else f"an {place(device, rows)}"
+
+
+def default_length(rows):
+    return find(rows, default=1)["grid"]
+
+
+def ns(row, name, digits=3):
+    """The smallest of the runs."""
+    return short(row[f"{name}_ns"], digits)
+
+
+def ns_spread(row, name):
+    """The smallest and the largest."""
+    both = [number(row[f"{name}_{most}ns"]) for most in ("", "most_")]
+    return " to ".join(dict.fromkeys(both))
+
+
+def percent(share):
+    return "none" if float(share) == 0 else f"{100 * float(share):.2g} %"
+
+
+def error(value):
+    value = float(value)
+    return "0" if value < 1e-12 else f"{value:.0f}" if value >= 1 else f"{value:.1g}"
+
+
+def how_long(a, b):
+    """How the first time compares with the second, in words: within a tenth they are alike."""
+    share = float(a) / float(b)
+    if share > 1.1:
+        return f"{share:.2g} times as long"
+    return "as long" if share >= 0.9 else f"{100 * share:.0f} % of that time"
+
+
+def setting_words(row):
+    return "complete lists" if row["nearest"] == "all" else f"`nearest {row['nearest']}`"
+
+
+def costs_of_settings(by_device, wanted, names):
+    """A line for each setting, by the values of its columns, that was measured on every device: the smallest and the largest time."""
+    def cells(line):
+        name, values = line
+        its = {device: find(rows, **values) for device, rows in by_device.items()}
+        row = its["cpu"]
+        return [name, percent(row["missed"]), error(row["force_mean"]), error(row["force_largest"]),
+                *[ns_spread(r, what) for what in ("search", "step") for r in its.values()],
+                f"{float(row['bytes']) / 1e6:.3g}", f"{float(row['kept_bytes']) / 1e6:.3g}"]
+
+    heads = ["setting", "missed contacts", "force error, mean", "largest",
+             *[f"{what}, {place(d, rows)}" for what in ("search", "step") for d, rows in by_device.items()], "grid, MB", "kept, MB"]
+    lines = [(name, values) for name, values in zip(names, wanted) if all(find(rows, **values) for rows in by_device.values())]
+    return table(lines, heads, cells)
+
+
+NEAREST = ("8", "4", "3", "2", "1")
+
+
+def settings(by_device):
+    """What settings cost and miss in cells of the default length on a CPU."""
+    grid = default_length(by_device["cpu"])
+    base = dict(grid=grid, corner="blend", nearest="all")
+    wanted = [base, {**base, "corner": "sum"}, *({**base, "nearest": n} for n in NEAREST)]
+    names = ["**nothing** (the default)", "`corner sum`", *(f"`nearest {n}`" for n in NEAREST)]
+    return costs_of_settings(by_device, wanted, names)
+
+
+def other_cells(by_device):
+    """The same with other cells, the largest first."""
+    lengths = [g for g in dict.fromkeys(r["grid"] for r in by_device["cpu"]) if g != default_length(by_device["cpu"])]
+    wanted, names = [], []
+    for grid in sorted(lengths, key=float, reverse=True):
+        for n in ("all", "8", "4", "2", "1"):
+            wanted.append(dict(grid=grid, corner="blend", nearest=n))
+            names.append(f"`grid {float(grid):g}`" + (f" `nearest {n}`" if n != "all" else ""))
+    return costs_of_settings(by_device, wanted, names)
+
+
+def drift(by_device):
+    """Energy that spheres gain or lose, in cells of the default length on a CPU."""
+    rows = by_device["cpu"]
+    base = dict(grid=default_length(rows), corner="blend", nearest="all")
+    lines = [("**nothing** (the default)", base), ("`corner sum`", {**base, "corner": "sum"}),
+             *((f"`nearest {n}`", {**base, "nearest": n}) for n in NEAREST)]
 
     def cells(line):
-        name, at, wanted = line
-        cpu, gpu = (find(rows, kind=device, grid=at[device], **wanted) for device in DEVICES)
-        return [name, percent(cpu["missed"]), error(cpu["force_mean"]), error(cpu["force_largest"]), error(cpu["bounce_drift"]),
-                error(cpu["roll_drift"]), f"{float(cpu['ns_per_sphere']):.0f}", megabytes(cpu), short(gpu["ns_per_sphere"], 3), megabytes(gpu)]
+        row = find(rows, **line[1])
+        return [line[0], error(row["bounce_drift"]), error(row["roll_drift"])]
 
-    heads = ["setting", "missed contacts", "force error, mean", "largest", "energy drift: bouncing", "rolling",
-             "CPU core, ns a step", "MB", "GPU, ns a step", "MB"]
-    return table(lines, heads, cells) + "\n\n" + told
+    return table(lines, ["setting", "bouncing", "rolling"], cells)
+
+
+def pair_of(rows, grid):
+    """The default's row and that of two triangles, in the same cells."""
+    return (find(rows, grid=grid, corner="blend", nearest=n) for n in ("all", "2"))
+
+
+def search_against_step(by_device):
+    """What an exact search costs beside one of two triangles, and what the lists that a step keeps win."""
+    grid = default_length(by_device["cpu"])
+    said = []
+    for device, rows in by_device.items():
+        exact, two = pair_of(rows, grid)
+        said.append(
+            f"- **On {on_place(device, rows)}** a search that keeps nothing takes {ns(two, 'search')} ns a sphere with the two nearest triangles; an exact "
+            f"one takes {ns(exact, 'search')} ns, {how_long(exact['search_ns'], two['search_ns'])}. A step with two triangles, which searches again, takes "
+            f"{ns(two, 'step')} ns; an exact one with the lists that the default keeps {ns(exact, 'step')} ns, {how_long(exact['step_ns'], two['step_ns'])}.")
+    exact, two = pair_of(by_device["cpu"], grid)
+    said.append(f"- **Two triangles miss** {percent(two['missed'])} of the contacts in cells of {float(grid):g} m, and forces are off by "
+                f"{percent(two['force_mean'])} on average. The default misses none.")
+    return "\n".join(said + [fastest_step(device, rows) for device, rows in by_device.items()])
+
+
+def fastest_step(device, rows):
+    """Which steps were faster than the default's in each of their runs."""
+    default = find(rows, default=1)
+    faster = sorted((r for r in rows if r["corner"] == default["corner"] and float(r["step_most_ns"]) < float(default["step_ns"])),
+                    key=lambda r: float(r["step_ns"]))
+    where = on_place(device, rows)
+    if not faster:
+        return f"- **The fastest step**: on {where} no setting is faster than the default in all of its runs."
+    best = faster[0]
+    return (f"- **The fastest step** on {where} is that of `grid {float(best['grid']):g}` and {setting_words(best)}: {ns(best, 'step')} ns, and "
+            f"{ns(default, 'step')} ns with the default. It takes {float(best['bytes']) / 1e6:.3g} MB in place of {float(default['bytes']) / 1e6:.3g} "
+            f"and misses {percent(best['missed']).replace('none', 'nothing')}.")
+
+
+def kept_list(by_device):
+    """How long the lists are that the default keeps."""
+    default = find(by_device["cpu"], default=1)
+    return (f"A list that the default keeps has {float(default['listed']):.2g} entries in the mean. All lists are made in {ns(default, 'choice')} ns a sphere; "
+            "a step's time has its share of that")
+
+
+def time_in_short(by_device):
+    """README's words for the same."""
+    grid = default_length(by_device["cpu"])
+    exact, two = pair_of(by_device["cpu"], grid)
+    said = [f"in a [vessel](examples/vessel) of {count(exact['triangles'])} triangles two triangles for each cell miss {percent(two['missed'])} of the contacts, "
+            "the default none"]
+    for device, rows in by_device.items():
+        exact, two = pair_of(rows, grid)
+        said.append(f"on {on_place(device, rows)} a search takes {ns(two, 'search')} ns a sphere with two, {ns(exact, 'search')} if it is exact; a step "
+                    f"{ns(two, 'step')} ns with two, {ns(exact, 'step')} with the exact lists that the default keeps")
+    return "; ".join(said)
 
 
 # ---- tables of paper.md ----------------------------------------------------------------------
@@ -398,27 +514,29 @@ def tables():
     """Page: name of the markers: table."""
     cpu, cuda = (rows_of(f"performance_{device}.csv") for device in DEVICES)
     kokkos_cpu, kokkos_cuda = (rows_of(f"kokkos_{device}.csv") for device in DEVICES)
-    vessel_cpu = rows_of("tradeoff_vessel_cpu.csv")
     study_cpu, study_cuda = (rows_of(f"accuracy_{device}.csv") for device in DEVICES)
+    vessel = tradeoff("vessel")
     return {
         "performance.md": {"hours": hours(kokkos_cpu, kokkos_cuda), "cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda)},
         "notes/performance.md": {"scale": scale(rows_of("scale_cuda.csv")), "liggghts": liggghts(rows_of("liggghts_cpu.csv"))},
         "library-queries.md": {"point-costs": point_costs(cpu)},
         "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES), rows_of("effects_pairs_cpu.csv", ";"))},
-        "../README.md": {"two-triangles": two_triangles(study_cuda, vessel_cpu)},
-        "paper.md": {"misses": paper_misses(study_cuda, vessel_cpu), "table-2": paper_table2(study_cpu, study_cuda),
+        "accuracy.md": {"against-time": search_against_step(vessel), "settings": settings(vessel), "cells": other_cells(vessel),
+                        "kept": kept_list(vessel), "drift": drift(vessel), "paper": settings(tradeoff("paper"))},
+        "paper.md": {"misses": paper_misses(study_cuda, vessel["cpu"]), "table-2": paper_table2(study_cpu, study_cuda),
                      "figures": paper_figures(study_cpu, study_cuda), "formula-5": paper_formula5(study_cpu)},
-        "accuracy.md": {"settings": settings([r for d in DEVICES for r in rows_of(f"tradeoff_vessel_{d}.csv")])},
+        "../README.md": {"two-triangles": two_triangles(study_cuda, vessel["cpu"]), "accuracy-time": time_in_short(vessel)},
     }
 
 
 def replaced(text, name, made):
-    """The text of a page with this table between its markers."""
-    begin, end = f"<!-- {name}:begin -->\n", f"<!-- {name}:end -->"
+    """The text of a page with this table between its markers, or these words where both markers stand in one line."""
+    begin, end = f"<!-- {name}:begin -->", f"<!-- {name}:end -->"
     if begin not in text or end not in text:
-        raise SystemExit(f"a page lacks the markers {begin.strip()} and {end}")
+        raise SystemExit(f"a page lacks the markers {begin} and {end}")
     before, _, rest = text.partition(begin)
-    return before + begin + made + "\n" + end + rest.partition(end)[2]
+    old, _, after = rest.partition(end)
+    return before + begin + (f"\n{made}\n" if old.startswith("\n") else made) + end + after
 
 
 def main():

@@ -7,7 +7,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt    # noqa: E402
 
-from pages import DEVICES, IMAGES, facts, find, of_study, rows_of    # noqa: E402
+from pages import DEVICES, IMAGES, default_length, facts, find, of_study, rows_of, tradeoff    # noqa: E402
 
 # By colour and by marker, so that a print in grey or a colour-blind reader tells them apart.
 STYLES = {"cpu": dict(color="#0072B2", marker="o"), "cuda": dict(color="#D55E00", marker="^")}
@@ -107,30 +107,39 @@ def broken_axes(grid, ratio=(6, 1)):
 
 
 def draw_accuracy(rows_by_device):
-    """Error of a force against the time of a step: the default, which is exact, and shorter lists."""
-    figure = plt.figure(figsize=(12, 5.4))
-    grid = figure.add_gridspec(1, 2, left=0.08, right=0.99, top=0.92, bottom=0.13, wspace=0.12)
+    """Error of a force against the time of a search and of a step, with the same cells on each device. No claim stands in it."""
+    grid_length = default_length(rows_by_device["cpu"])
+    figure = plt.figure(figsize=(6 * len(rows_by_device) + 1, 5.8))
+    grid = figure.add_gridspec(1, len(rows_by_device), left=0.55 / len(rows_by_device) / 3, right=0.99, top=0.92, bottom=0.13, wspace=0.12)
+    ways = (("search", "a search that keeps nothing", "none", "--", (8, 6)), ("step", "a step with what is kept", "full", "-", (8, -16)))
     for column, (device, rows) in enumerate(rows_by_device.items()):
         high, low = broken_axes(grid[column])
-        default = next(r for r in rows if r["default"] == "1")
         colour = STYLES[device]["color"]
-        its = sorted((int(r["nearest"]), float(r["ns_per_sphere"]), float(r["force_mean"])) for r in rows
-                     if r["nearest"] != "all" and (r["grid"], r["corner"]) == (default["grid"], default["corner"]))
-        high.plot([x for _, x, _ in its], [y for _, _, y in its], "-", color=colour, linewidth=1, alpha=0.5)
-        for n, x, y in its:
-            high.plot(x, y, STYLES[device]["marker"], color=colour, markersize=9)
-            high.annotate(f"nearest {n}", (x, y), (10, -5), textcoords="offset points", fontsize=FONT - 1)
-        own = float(default["ns_per_sphere"])
-        low.plot(own, 0, "*", color="black", markersize=20)
-        # On the CPU no setting at all is faster by more than noise; on the GPU cells of half the length are, for twice the memory.
-        fastest = all(float(r["ns_per_sphere"]) > 0.94 * own for r in rows)
-        low.annotate("default: exact and fastest" if fastest else "default: exact, and faster than these", (own, 0), (14, -5), textcoords="offset points", fontsize=FONT, weight="bold")
-        high.set(xscale="log", yscale="log", ylim=(1e-4, 1))
-        high.set_xlim(own / 1.3, 2.6 * max(x for _, x, _ in its))
+        its = [r for r in rows if (r["grid"], r["corner"]) == (grid_length, "blend")]
+        short = sorted((r for r in its if r["nearest"] != "all"), key=lambda r: int(r["nearest"]))
+        exact = next(r for r in its if r["nearest"] == "all")
+        for way, name, fill, line, away in ways:
+            def bars(r):
+                least, most = (float(r[f"{way}_{which}ns"]) for which in ("", "most_"))
+                return least, [[0], [most - least]]
+            high.plot([bars(r)[0] for r in short], [float(r["force_mean"]) for r in short], line, color=colour, linewidth=1, alpha=0.5)
+            for r in short:
+                x, spread = bars(r)
+                high.errorbar(x, float(r["force_mean"]), xerr=spread, marker=STYLES[device]["marker"], color=colour, markersize=9, fillstyle=fill,
+                              linewidth=1)
+                high.annotate(f"{r['nearest']}", (x, float(r["force_mean"])), away, textcoords="offset points", fontsize=FONT - 1)
+            high.plot([], [], line, marker=STYLES[device]["marker"], color=colour, markersize=9, fillstyle=fill, label=name)
+            x, spread = bars(exact)
+            low.errorbar(x, 0, xerr=spread, marker="*", color="black", markersize=19, fillstyle=fill, linewidth=1)
+            side = 1 if way == "step" else -1
+            low.annotate(f"default, {way}", (x, 0), (13 * side, -16), textcoords="offset points", fontsize=FONT - 1, ha="left" if side > 0 else "right")
+        every = [float(r[f"{way}_{which}ns"]) for r in its for way in ("search", "step") for which in ("", "most_")]
+        high.set(xscale="log", yscale="log", ylim=(1e-3, 1.5), xlim=(min(every) / 1.3, 2 * max(every)))
+        high.legend(loc="lower left", fontsize=FONT - 2)
         high.set_title("one CPU core" if device == "cpu" else label(rows), fontsize=FONT)
-        low.set_xlabel("time of a step for each grain near the wall, ns", fontsize=FONT)
-        ticks = [t for t in (10, 12, 15, 20, 30, 50, 100, 200, 400) if own / 1.3 <= t <= high.get_xlim()[1]]
-        low.set_xticks(ticks, [str(t) for t in ticks])
+        low.set_xlabel("time for each grain near the wall, ns", fontsize=FONT)
+        ticks = [t * 10**e for e in range(-3, 4) for t in (1, 2, 5) if high.get_xlim()[0] <= t * 10**e <= high.get_xlim()[1]]
+        low.set_xticks(ticks, [f"{t:g}" for t in ticks])
         low.minorticks_off()
         if column == 0:
             high.set_ylabel("mean error of a force / mean force", fontsize=FONT)
@@ -282,6 +291,6 @@ def draw_all():
     step = find(rows_of("performance_cuda.csv"), case="hertz/history, in place", triangles=10000, spheres=10000000, order="random")
     draw_question(rows_of("accuracy_cuda.csv"), step)
     draw_figures(both("accuracy"))
-    draw_accuracy(both("tradeoff_vessel"))
+    draw_accuracy(tradeoff("vessel"))
     draw_hard_curves(rows_of("hard_curves_cpu.csv"))
     draw_long_grain(rows_of("hard_curves_cpu.csv"))

@@ -38,10 +38,12 @@ BENCHMARKS = {
     "region": ("region", CPU, SCRIPT + "own_walls.py region " + COMMON, "a mesh beside fix wall/gran/region"),
     "shapes": ("shapes", CPU, "{bin}/bench_shapes " + COMMON, "spheres, ellipsoids and superellipsoids at faces and edges"),
     "nodes": ("nodes", BOTH, "{bin}/bench_nodes " + COMMON, "a rigid sheet and one whose nodes move"),
+    "tradeoff": ("tradeoff_vessel", BOTH, SCRIPT + "tradeoff.py vessel " + COMMON, "what accuracy costs in time, in the vessel of examples/vessel"),
+    "tradeoff-paper": ("tradeoff_paper", BOTH, SCRIPT + "tradeoff.py paper " + COMMON, "the same on the paper's cylinder"),
     "device": ("device", CPU, SCRIPT + "device.py " + COMMON, "steps of a LAMMPS without Kokkos on a core and on a GPU"),
 }
 DEFAULT = ("query", "build", "step")
-ON_ONE_CORE = ("mesh-size", "effects", "pairs", "bodies", "nodes", "shapes")
+ON_ONE_CORE = ("mesh-size", "effects", "pairs", "bodies", "nodes", "shapes", "tradeoff", "tradeoff-paper")
 EFFECTS = {"cpu": "5000 401", "cuda": "200000 31"}    # spheres, rounds
 
 

@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""The benchmark driver keeps rows by program, case, sizes and order, the pages hold what
-the rows of doc/data say, and every program prints rows of the one format.
+"""The benchmark driver keeps rows by program, case, sizes and order, and every program prints rows of the one format.
 
 Comparisons with other walls and with LIGGGHTS take minutes.
 """
@@ -19,6 +18,7 @@ BUILD = os.environ["LSDCD_BUILD"]
 sys.path.insert(0, str(ROOT / "bench"))
 import pages  # noqa: E402
 import rows as kept  # noqa: E402
+import tradeoff  # noqa: E402
 from facts import fact  # noqa: E402
 
 
@@ -39,11 +39,16 @@ def test_rows():
          kept.parse(kept.as_csv(old)) == old)
 
 
-def test_document():
-    text = {page: (pages.DOC / page).read_text() for page in pages.tables()}
-    stale = [f"{page}: {name}" for page, made in pages.tables().items() for name, each in made.items()
-             if pages.replaced(text[page], name, each) != text[page]]
-    fact("the pages hold what their rows say", not stale, f"bench/pages.py writes {', '.join(stale)}" if stale else "")
+def test_spread():
+    def times(search, step, mean="0"):
+        return dict(grid="1", search_ns=search, search_most_ns=search, step_ns=step, step_most_ns=step, choice_ns="9", force_mean=mean,
+                    front="0", repeats="1")
+
+    got = tradeoff.joined([[times("10", "7"), times("5", "8", "0.1")], [times("9", "30"), times("11", "6", "0.1")], [times("100", "8"), times("6", "7", "0.1")]])
+    fact("of several runs the smallest and the largest time stay", [[r[k] for k in ("search_ns", "search_most_ns", "step_ns", "step_most_ns", "repeats")]
+         for r in got] == [["9", "100", "7", "30", "3"], ["5", "11", "6", "8", "3"]], str(got))
+    fact("a row that is slower and less exact is not on the front", [r["front"] for r in got] == ["1", "1"] and [
+        r["front"] for r in tradeoff.joined([[times("10", "7"), times("5", "8", "0.1")]])] == ["1", "0"], str(got))
 
 
 def test_programs():
@@ -96,7 +101,7 @@ def near_and_far(rows):
 
 
 def test_comparisons():
-    names = ["mesh-size"]
+    names = ["mesh-size", "tradeoff-paper"]
     if os.path.exists(os.path.join(BUILD, "bin", "lmp-lsdcd")):
         names += ["floor", "region"] + ["liggghts", "hard-curves"] * bool(shutil.which("liggghts"))
     with tempfile.TemporaryDirectory() as folder:

@@ -10,10 +10,12 @@ commands    of user pages run in their order, as they stand; of others those of 
 scripts     LAMMPS: whole scripts for 0 steps, other lines in a small scene
 host        those of user pages that need a newer LAMMPS, in that of hosts/build_host.sh
 recipes     doc/recipes.md and doc/choosing.md run as they stand, and print what the pages have
+figures     tables and words that bench/pages.py makes of doc/data are in the pages, and no other time or comparison of settings beside them
 log         README's script and commands run as they stand, and the log has the lines that doc/log.md explains
 tutorial    every command of doc/tutorial.md in its order, and (paraview) the script that opens its result
 """
 import base64
+import importlib.util
 import math
 import os
 import pathlib
@@ -364,6 +366,34 @@ def test_words_of_commands():
             if any(wrong):
                 fact(where, False, "; ".join(filter(None, wrong)))
     fact("there are commands between words", count > 20, count)
+
+
+# ---- figures -----------------------------------------------------------------------------
+
+# What only rows of doc/data may say about settings: a time, or which is faster.
+TIMED = re.compile(r"[\d.]+ (?:ns|µs|ms)\b|\b(?:fastest|faster|slower|quicker)\b|costs? no time", re.I)
+MADE = re.compile(r"<!-- ([\w-]+):begin -->.*?<!-- \1:end -->", re.S)
+
+
+def bench_pages():
+    """bench/pages.py, whose name is that of a module here, too."""
+    spec = importlib.util.spec_from_file_location("bench_pages", ROOT / "bench" / "pages.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_figures():
+    figures = bench_pages()
+    made = figures.tables()
+    text = {page: (figures.DOC / page).read_text() for page in made}
+    stale = [f"{page}: {name}" for page, its in made.items() for name, each in its.items()
+             if figures.replaced(text[page], name, each) != text[page]]
+    fact("the pages hold what the rows of doc/data say", not stale, f"bench/pages.py writes {', '.join(stale)}" if stale else "")
+    of_readme = next(line for line in text["../README.md"].split("\n") if line.startswith("|") and line.endswith("[accuracy](doc/accuracy.md) |"))
+    for name, words in (("README's promise on accuracy", of_readme), ("doc/accuracy.md", text["accuracy.md"])):
+        beside = TIMED.findall(MADE.sub("", words))
+        fact(f"{name} speaks of time as its rows do", MADE.search(words) and not beside, str(beside))
 
 
 # ---- scripts -----------------------------------------------------------------------------
