@@ -676,7 +676,7 @@ def test_nodes_and_wear_on_processes(folder):
     law = "granular hooke 1e3 5 damping mass_velocity tangential linear_history 300 1 0.3 rolling sds 5 0.01 0.05 twisting sds 1 0.001 0.01"
     nodes = NODES.format(z="-0.21", dt="1e-3", law=law, columns=" ".join(COLUMNS), run="{run}"), 30
     wear = SPHERE.replace("floor.stl energy", "cut.stl wear archard 1e-3 50 deform every 10 energy").replace("{columns}", "{columns} f_wall[75]").format(
-        x=f"-0.8 0.2 {REST}", v="1 0.3 0", move=PULL, law=f"hooke/history {KN} 3e3 20 10 0.3 1", dt="1e-3", columns=" ".join(COLUMNS), run="{run}"), 205
+        x=f"-0.8 0.2 {REST}", v="1 0.3 0", move=PULL, law=f"hooke/history {KN} 3e3 20 10 0.05 1", dt="1e-3", columns=" ".join(COLUMNS), run="{run}"), 205
     for script, half in (nodes, wear):
         def last(text, ranks=1):
             return lmp.read_thermo(lmp.run_well(text, folder, ranks))[-1][1:]
