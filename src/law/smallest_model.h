@@ -86,21 +86,31 @@ GranularModel<Normal, kHistory, kSet> granular_model(const ContactLaw &p, const 
           p.limit_damping};
 }
 
-// Calls act(normal) with the normal sub-model of a law, with the numbers of `granular`. A new one is named here, with the struct
-// that has its formulas.
-template <class Act>
-auto with_normal(const ContactLaw &p, const Act &act)
+// A new normal sub-model is named here if its formulas are in TouchingNormal.
+inline TouchingNormal touching_normal(const ContactLaw &p)
 {
   switch (p.normal) {
     case NormalModel::hooke:
     case NormalModel::hertz:
-      return act(TouchingNormal{p.normal, p.k_normal, 0});
+      return {p.normal, p.k_normal, 0};
     case NormalModel::dmt:
-      return act(TouchingNormal{p.normal, p.k_normal, 4 * kPi * p.surface_energy});
+      return {p.normal, p.k_normal, 4 * kPi * p.surface_energy};
     case NormalModel::jkr:
       break;
   }
-  return act(JkrNormal(p.modulus, p.surface_energy));
+  throw std::logic_error("this normal sub-model acts beyond touch");
+}
+
+inline JkrNormal jkr_normal(const ContactLaw &p)
+{
+  return JkrNormal(p.modulus, p.surface_energy);
+}
+
+// Calls act(normal) with the normal sub-model of a law, with the numbers of `granular`.
+template <class Act>
+auto with_normal(const ContactLaw &p, const Act &act)
+{
+  return p.is(NormalModel::jkr) ? act(jkr_normal(p)) : act(touching_normal(p));
 }
 
 // Returns whether a law of `granular` has other sub-models than a normal one, its damping and friction that is not rescaled.
@@ -114,18 +124,14 @@ inline bool has_more(const ContactLaw &p)
 template <GranularSet kFew, GranularSet kMore, class Make>
 auto with_granular_sets(const ContactLaw &p, const Make &make)
 {
-  return with_normal(p, [&](const auto &normal) {
-    if constexpr (std::decay_t<decltype(normal)>::kBeyondContact) {
-      return make(granular_model<true, kMore>(p, normal));
-    } else {
-      const bool more = has_more(p);
-      if (p.has_history())
-        return more ? make(granular_model<true, kMore>(p, normal))
-                    : make(granular_model<true, kFew>(p, normal));
-      return more ? make(granular_model<false, kMore>(p, normal))
-                  : make(granular_model<false, kFew>(p, normal));
-    }
-  });
+  if (p.is(NormalModel::jkr)) return make(granular_model<true, kMore>(p, jkr_normal(p)));
+  const TouchingNormal normal = touching_normal(p);
+  const bool more = has_more(p);
+  if (p.has_history())
+    return more ? make(granular_model<true, kMore>(p, normal))
+                : make(granular_model<true, kFew>(p, normal));
+  return more ? make(granular_model<false, kMore>(p, normal))
+              : make(granular_model<false, kFew>(p, normal));
 }
 
 // `granular` without sub-models of LIGGGHTS: calls make(law) with the smallest law that has all that is asked for.
@@ -147,14 +153,13 @@ auto with_granular_added_law(const ContactLaw &p, const Make &make)
 template <class Make>
 auto with_energy_law(const ContactLaw &p, const Make &make)
 {
-  if (!p.is_classic())
-    return with_normal(p, [&](const auto &normal) {
-      if constexpr (std::decay_t<decltype(normal)>::kBeyondContact)
-        return make(granular_model<true, GranularSet::all>(p, normal));
-      else
-        return has_more(p) ? make(granular_model<true, GranularSet::all>(p, normal))
-                           : make(granular_model<true, GranularSet::either>(p, normal));
-    });
+  if (!p.is_classic()) {
+    if (p.is(NormalModel::jkr))
+      return make(granular_model<true, GranularSet::all>(p, jkr_normal(p)));
+    const TouchingNormal normal = touching_normal(p);
+    return has_more(p) ? make(granular_model<true, GranularSet::all>(p, normal))
+                       : make(granular_model<true, GranularSet::either>(p, normal));
+  }
   return with_classic_law(p, [&](const auto &base) {
     return make(AddedModel<std::decay_t<decltype(base)>, true>{
         base, family_of<AnyRolling>(p.rolling), {p.cohesion.numbers[0]}, p.k_tangent});

@@ -4,10 +4,12 @@
 // Passages through a surface: each fact has a closed form, or follows from the surface being closed.
 #include "base/input_error.h"
 #include "flow/flow_surface.h"
+#include "flow/pass_file.h"
 #include "geometry/expansion.h"
 #include "input/massflow_settings.h"
 #include "support/meshes.h"
 #include "support/says.h"
+#include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
 
@@ -327,6 +329,26 @@ TEST(flow_settings, errors_name_the_word)
   EXPECT_TRUE(has(problem({"mesh", "a", "every", "0"}), "out of range"));
   EXPECT_TRUE(has(problem({"mesh", "a", "mesh", "b"}), "given twice"));
   EXPECT_TRUE(has(problem({"mesh", "a", "friction", "1"}), "count each | once"));
+}
+
+// Processes hand over their rows of several steps at once.
+TEST(pass_file, has_its_rows_in_the_order_of_steps_and_of_ids_within_one)
+{
+  const TempDir folder;
+  PassFile file(folder.path("rows"));
+  file.open(0);
+  const auto row = [](Real step, Real id) {
+    Passage p = {};
+    p.step = step;
+    p.id = id;
+    return p;
+  };
+  ASSERT_TRUE(file.add({row(8, 2), row(7, 9), row(7, 3), row(8, 1)}));
+  EXPECT_EQ(content(folder.path("rows")), "# step time id type diameter x y z vx vy vz direction\n"
+                                          "7 0 3 0 0 0 0 0 0 0 0 0\n"
+                                          "7 0 9 0 0 0 0 0 0 0 0 0\n"
+                                          "8 0 1 0 0 0 0 0 0 0 0 0\n"
+                                          "8 0 2 0 0 0 0 0 0 0 0 0\n");
 }
 
 }    // namespace

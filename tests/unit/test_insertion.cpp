@@ -376,6 +376,10 @@ TEST(insertion, a_huge_amount_takes_the_memory_of_a_million_grains)
   EXPECT_EQ(insertion.owed().size(), Insertion::kMostDrawn - 1);
   EXPECT_EQ(insertion.late().number, 999999999);
   EXPECT_NEAR(insertion.late().mass, 999999999, 1);    // rounding of 1e6 sums
+  const std::vector<Real> saved = insertion.state(1).numbers();
+  Feed<> restarted(plan, 1);
+  restarted.restore(saved.data(), saved.size(), 1);
+  EXPECT_EQ(restarted.late().number, 999999999);
   EXPECT_FALSE(insertion.has_more(1));
   // In vain: what is not drawn is due, too, and brings no try in each step.
   EXPECT_EQ(insertion.next_step(), 2);

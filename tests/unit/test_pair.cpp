@@ -326,6 +326,35 @@ TEST(pair, that_turns_as_one_body_keeps_its_spring)
   EXPECT_NEAR(g.force[0], 100, 1e-10);
 }
 
+// A pair that slips faster than its limit allows has the friction mu F, and its spring is that of the sub-model: cut to the limit
+// alone (`_liggghts`, `_slip`), or to what makes up for the dashpot.
+TEST(pair, beyond_the_limit_of_friction_has_the_spring_of_its_sub_model)
+{
+  const Real kn = 1000, overlap = 0.1, kt = 500, dashpot = 0.5 * 30, speed = 2000;
+  const Real limit = 0.4 * kn * overlap;
+  const struct {
+    const char *model;
+    Real spring;    // force
+  } rows[] = {{"linear_history_liggghts", limit},
+              {"linear_history_slip", limit},
+              {"linear_history", dashpot * speed - limit}};
+  for (const auto &row : rows) {
+    Grains g(2);
+    g.x = {1.9, 0, 0, 0, 0, 0};
+    g.v = {0, speed, 0, 0, 0, 0};    // slips by 0.2 in the step
+    g.set_law(law_of_words("hooke 1000 30 tangential " + std::string(row.model) +
+                           " 500 0.5 0.4 damping velocity"));
+    g.set_list();
+    std::vector<RecordedPair> record;
+    g.record = &record;
+    g.step();
+    EXPECT_NEAR(g.force[1], -limit, 1e-12 * limit) << row.model;
+    const Real held = kn * overlap * overlap / 2 + row.spring * row.spring / (2 * kt);
+    ASSERT_EQ(record.size(), 1u);
+    EXPECT_NEAR(record[0].energy, held, 1e-12 * held) << row.model;
+  }
+}
+
 // heat area: h pi a^2 dT flows from the warm grain into the cold one, with one law and with several, whichever comes first.
 TEST(pair, loses_as_much_heat_as_it_gains)
 {
@@ -735,6 +764,7 @@ TEST(pairs, of_several_laws_have_each_its_own)
   EXPECT_EQ(one.torque, both.torque);
 }
 
+<<<<<<< ours
 // Pairs of many types wait for others with their law, in lanes that are shared by all, and have the bits of a law of all types. There
 // are 300 laws here, and more pairs than wait at once.
 TEST(pairs, of_many_types_have_the_bits_of_one)
@@ -775,6 +805,32 @@ TEST(pairs, of_many_types_have_the_bits_of_one)
     ASSERT_EQ(of_one[k].force, of_many[k].force);
     ASSERT_EQ(of_one[k].energy, of_many[k].energy);
   }
+=======
+// What a file gets of a pair does not hang on what was in its memory before.
+TEST(pairs, keep_zeros_where_their_law_keeps_fewer_numbers_than_another)
+{
+  const ContactLaw few = law_of_words(kLaws[4]), more = law_of_words(kLaws[5]);
+  const int width = 3 + more.n_extra();
+  Grains g = random_grains(100, 4);
+  g.set_list();
+  g.laws = {pair_law(few), pair_law(more)};
+  g.n_types = 2;
+  g.law_of.assign(9, 0);
+  for (PairHistory &h : g.history) h.begin(width);
+  // The memory of all columns is full of other numbers.
+  std::vector<std::size_t> keys(5000);
+  for (std::size_t k = 0; k < keys.size(); k++) keys[k] = k;
+  for (PairHistory &h : g.history) {
+    h.append(keys.data(), static_cast<int>(keys.size()));
+    for (int k = 0; k < width; k++) std::fill_n(h.column(k), keys.size(), 7);
+    h.begin(width);
+  }
+  g.step();
+  const PairHistory &now = g.history[g.now];
+  ASSERT_GT(now.size(), 100u);
+  for (int k = 3; k < width; k++)
+    for (std::size_t pair = 0; pair < now.size(); pair++) ASSERT_EQ(now.of(pair)[k], 0);
+>>>>>>> theirs
 }
 
 TEST(partners, go_in_a_message_as_they_are)

@@ -36,19 +36,6 @@ ContactLaw law_with(NormalModel normal, TangentialModel tangential)
   return law;
 }
 
-// Returns the law with all sub-models, of one whose normal force ends where the surfaces part.
-All all_of(const ContactLaw &p)
-{
-  All all = {};
-  with_normal(p, [&](const auto &normal) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(normal)>, TouchingNormal>)
-      all = granular_model<true, GranularSet::all>(p, normal);
-    else
-      ADD_FAILURE() << "it acts beyond touch";
-  });
-  return all;
-}
-
 // Every law of normal force and friction alone.
 std::vector<ContactLaw> laws_of_few(bool booked)
 {
@@ -161,7 +148,7 @@ void expect_forces_of_all()
   for (const ContactLaw &p : laws_of_few())
     with_law(p, [&](const auto &law) {
       using Law = std::decay_t<decltype(law)>;
-      const All all = all_of(p);
+      const All all = granular_model<true, GranularSet::all>(p, touching_normal(p));
       ContactMemory<Law::kExtra> memory = {};
       ContactMemory<All::kExtra> memory_of_all = {};
       for (int step = 0; step < 200; step++) {
@@ -216,7 +203,7 @@ TEST(smallest_model, says_what_its_force_is_made_of_as_the_law_with_all)
 {
   for (const ContactLaw &p : laws_of_few(true))
     with_booked_granular(p, [&](const auto &law) {
-      const All all = all_of(p);
+      const All all = granular_model<true, GranularSet::all>(p, touching_normal(p));
       expect_same_parts<Contact>(law, all, p);
       expect_same_parts<PairContact>(law, all, p);
     });

@@ -59,7 +59,7 @@ struct HertzNormal {
 // `normal` the force with damping. Adhesion presses the surfaces together even where the forces
 // cancel.
 
-// `hooke`, `hertz` and `dmt` share one kernel: the choice is the same for all contacts of a wall, and with_normal()
+// `hooke`, `hertz` and `dmt` share one kernel: the choice is the same for all contacts of a wall, and touching_normal()
 // (smallest_model.h) says which models it has. DMT (Derjaguin, Muller and Toporov 1975) is Hertz minus a constant pull
 // 4 pi gamma R while the spheres touch.
 struct TouchingNormal {
