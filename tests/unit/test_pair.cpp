@@ -764,7 +764,6 @@ TEST(pairs, of_several_laws_have_each_its_own)
   EXPECT_EQ(one.torque, both.torque);
 }
 
-<<<<<<< ours
 // Pairs of many types wait for others with their law, in lanes that are shared by all, and have the bits of a law of all types. There
 // are 300 laws here, and more pairs than wait at once.
 TEST(pairs, of_many_types_have_the_bits_of_one)
@@ -805,7 +804,8 @@ TEST(pairs, of_many_types_have_the_bits_of_one)
     ASSERT_EQ(of_one[k].force, of_many[k].force);
     ASSERT_EQ(of_one[k].energy, of_many[k].energy);
   }
-=======
+}
+
 // What a file gets of a pair does not hang on what was in its memory before.
 TEST(pairs, keep_zeros_where_their_law_keeps_fewer_numbers_than_another)
 {
@@ -830,7 +830,6 @@ TEST(pairs, keep_zeros_where_their_law_keeps_fewer_numbers_than_another)
   ASSERT_GT(now.size(), 100u);
   for (int k = 3; k < width; k++)
     for (std::size_t pair = 0; pair < now.size(); pair++) ASSERT_EQ(now.of(pair)[k], 0);
->>>>>>> theirs
 }
 
 TEST(partners, go_in_a_message_as_they_are)

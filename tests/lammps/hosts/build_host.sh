@@ -104,7 +104,7 @@ fi
 hosts=${LSDCD_HOSTS:-${XDG_CACHE_HOME:-$HOME/.cache}/lsdcd/hosts}
 folder=$hosts/$version${kind:+-$kind}
 work=$folder/work
-jobs=${LSDCD_HOST_JOBS:-$(nproc)}
+jobs=${LSDCD_HOST_JOBS:-$(env -u OMP_NUM_THREADS nproc)}    # which else says how many threads a program may have
 
 for tool in cmake c++ $mpicxx flock sha256sum tar; do
   command -v $tool >/dev/null || skip "no $tool on this machine"
