@@ -736,6 +736,7 @@ double PairGranularLsdcd::single(int i, int j, int itype, int jtype, double /*rs
   if (rigid && masses.size() < static_cast<std::size_t>(std::max(i, j)) + 1)
     fatal_here("single() is asked for atoms that no step has seen");
   const lsdcd::PairJob now = job();
+  if (are_frozen(now, i, j)) return 0;
   const lsdcd::PairLaw &law = laws[law_index(itype, jtype)];
 
   const int width = kept_width();

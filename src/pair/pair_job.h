@@ -188,6 +188,14 @@ LSDCD_FN Vec3 vec_of(const StridedView<const Real> &all, int i)
   return all[i];
 }
 
+// Returns whether neither grain moves. Such pairs do not act, as it is chance which of them a list has. Job: with `mask` and `frozen` as
+// in PairJob.
+template <class Job>
+LSDCD_FN bool are_frozen(const Job &job, int i, int j)
+{
+  return job.mask && (job.mask[i] & job.mask[j] & job.frozen);
+}
+
 // The reduced mass of a grain and one that does not move is that of the first. Job: with `mask` and `frozen` as in PairJob.
 template <class Job>
 LSDCD_FN Real reduced_mass(const Job &job, int i, int j, Real mass_i, Real mass_j)

@@ -167,7 +167,8 @@ class PairStep {
       count += norm_sq(x - vec_at(all_x, j)) < sum * sum;
     }
     const int touching = static_cast<int>(count);
-    return bits >> job_.list.factor_shift & 3 ? without_excluded(touching) : touching;
+    const bool may_be_excluded = bits >> job_.list.factor_shift & 3 || job_.mask;
+    return may_be_excluded ? without_excluded(touching) : touching;
   }
   // The same with those that adhesion holds.
   int find_held(int i, std::size_t start)
@@ -190,7 +191,7 @@ class PairStep {
     }
     return without_excluded(count - n_found_);
   }
-  // Takes those away whose factor is 0.
+  // Takes those away whose factor is 0, and those of two grains that do not move.
   int without_excluded(int n)
   {
     int count = n_found_;
@@ -200,7 +201,7 @@ class PairStep {
       first_[count] = first_[m];
       neighbour_[count] = neighbour_[m];
       key_[count] = key_[m];
-      count += factor != 0;
+      count += factor != 0 && !are_frozen(job_, first_[m], neighbour_[m] & job_.list.mask);
     }
     return count - n_found_;
   }

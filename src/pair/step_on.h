@@ -141,7 +141,7 @@ struct FindTouching {
         const Real pull_off = s.pull_off[s.law(i, j)];
         yes = pull_off > 0 && is_held(p, pull_off);
       }
-    return yes && !(s.left_out >> (with >> s.list.factor_shift & 3) & 1);
+    return yes && !(s.left_out >> (with >> s.list.factor_shift & 3) & 1) && !are_frozen(s, i, j);
   }
 };
 

@@ -107,6 +107,43 @@ def test_masses(folder, what):
     at_most(f"{what}: positions, velocities, forces, torques", lmp.largest_difference(theirs, own), 1e-10)
 
 
+FROZEN = lmp.head("-12 12 -12 12 -12 12", newton="{newton}") + """\
+create_atoms 1 single -4.6 0 0
+create_atoms 1 single -0.3 0 0
+create_atoms 1 single 4.2 0 0
+create_atoms 1 single 0 4 4
+create_atoms 1 single 0 4.9 4
+set atom 1*3 diameter 6 density 1
+set atom 4*5 diameter 1 density 1
+group still id 1:3
+group free id 4:5
+pair_style granular/lsdcd
+pair_coeff * * {law}
+neighbor 0.1 bin
+fix move free nve/sphere
+fix hold still freeze
+compute pairs all pair/local eng
+compute sum all reduce sum c_pairs
+thermo_style custom step pe c_sum press
+thermo_modify norm no
+run 0
+"""
+
+
+@pytest.mark.parametrize("law", ["law hooke 1000 0 0 0 0 0", "hooke 1000 0 tangential linear_nohistory 0 0 damping velocity"])
+@pytest.mark.parametrize("newton", ["off", "on"])
+def test_two_frozen_grains(folder, law, newton):
+    """Two grains that do not move do not act, be they in a list or not: of three pairs that overlap the energy is that of the free one,
+    1000 0.1^2/2, and the pressure its 1000 0.1 0.9 over 3 times the volume of the box."""
+    for ranks in (1, 2):
+        log = lmp.run(FROZEN.format(law=law, newton=newton), folder, ranks=ranks).stdout
+        text = FROZEN.format(law=law, newton=newton)
+        pe, of_pairs, pressure = lmp.read_thermo(lmp.run_well(text, folder, ranks=ranks))[-1][1:]
+        at_most(f"{ranks}: energy", abs(pe / 5 - 1), 1e-7)    # as many digits as the log has
+        at_most(f"{ranks}: energy of pairs", abs(of_pairs / 5 - 1), 1e-7)
+        at_most(f"{ranks}: pressure", abs(pressure / (90 / (3 * 24**3)) - 1), 1e-6)
+
+
 def test_masses_change(folder):
     """A grain that fix adapt makes heavier after lists are made has its new mass at once, also where there are rigid bodies elsewhere."""
     bodies = "fix mark all property/atom i_body\nset group body i_body 1\nfix stiff body rigid/small custom i_body\n"
