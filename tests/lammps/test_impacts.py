@@ -187,11 +187,11 @@ def test_clump_in_a_fold(folder):
     """Each of two spheres of a clump that lie along the line of a fold has the impacts of one, of the clump's mass."""
     a = math.radians(60)
     c, s = math.cos(a / 2), math.sin(a / 2)
-    clump = BOXED.replace("fix             wall", "set group all mol 1\nfix wall").replace("atom_style      sphere", "atom_style hybrid sphere molecular")
+    clump = BOXED.replace("fix             wall", "variable one atom 1\nfix wall")
     clump = clump.replace("set             group all diameter", "create_atoms 1 single {other} units box\nset group all diameter")
     z = 0.5 / c + 0.0103
     for mesh in fold(folder, (-c, s), (c, s)):
-        clumped = clump.replace("timestep        {dt}", "fix bodies all rigid/small molecule\ntimestep {dt}")
+        clumped = clump.replace("timestep        {dt}", "fix bodies all rigid/small custom v_one\ntimestep {dt}")
         found = struck(folder, "hooke 100 NULL 0 NULL 0 0", mesh, 1e-4, "run 60", script=clumped, x=f"0 0.3 {z!r}", other=f"0 -0.3 {z!r}", v="0 0 -1", move="")
         fact(f"{mesh}: two of each", found[0] == 4, found)
         at_most(f"{mesh}: energy", abs(found[1] - 2 * (c ** 2 + (2 * c * s ** 2) ** 2)), 1e-9)

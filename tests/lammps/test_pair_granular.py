@@ -123,8 +123,8 @@ neighbor 0.1 bin
 fix move free nve/sphere
 fix hold still freeze
 compute pairs all pair/local eng
-compute sum all reduce sum c_pairs
-thermo_style custom step pe c_sum press
+dump pairs all local 1 pairs c_pairs
+thermo_style custom step pe press
 thermo_modify norm no
 run 0
 """
@@ -137,7 +137,8 @@ def test_two_frozen_grains(folder, law, newton):
     1000 0.1^2/2, and the pressure its 1000 0.1 0.9 over 3 times the volume of the box."""
     for ranks in (1, 2):
         text = FROZEN.format(law=law, newton=newton)
-        pe, of_pairs, pressure = lmp.read_thermo(lmp.run_well(text, folder, ranks=ranks))[-1][1:]
+        pe, pressure = lmp.read_thermo(lmp.run_well(text, folder, ranks=ranks))[-1][1:]
+        of_pairs = sum(float(line) for line in (folder / "pairs").read_text().split("c_pairs")[-1].split())
         at_most(f"{ranks}: energy", abs(pe / 5 - 1), 1e-7)    # as many digits as the log has
         at_most(f"{ranks}: energy of pairs", abs(of_pairs / 5 - 1), 1e-7)
         at_most(f"{ranks}: pressure", abs(pressure / (90 / (3 * 24**3)) - 1), 1e-6)
