@@ -56,7 +56,7 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   std::vector<lsdcd::RunFile> files() const;    // that it reads and writes
 
  protected:
-  enum : unsigned { kCounted = 1, kToDelete = 2, kAllFlags = 3 };
+  enum : unsigned { kCounted = 1, kToDelete = 2, kAllFlags = 3 };    // others are a form's own
   // An atom that may have passed, as it is at the end of the step. direction: not yet known.
   struct Passer {
     lsdcd::Passage row;

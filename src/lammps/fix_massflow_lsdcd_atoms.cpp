@@ -51,7 +51,7 @@ int FixMassflowLsdcd::unpack_exchange(int i, double *buf)
 int FixMassflowLsdcd::pack_restart(int i, double *buf)
 {
   buf[0] = size_restart(i);
-  buf[1] = flags_of(i);
+  buf[1] = flags_of(i) & kAllFlags;
   return size_restart(i);
 }
 
@@ -63,7 +63,8 @@ void FixMassflowLsdcd::unpack_restart(int i, int nth)
   unsigned flags = 0;
   while (flags <= kAllFlags && !(row.size == 1 && row.numbers[0] == flags)) flags++;
   if (flags > kAllFlags) fail_at_row(*atom, i, kWhat, kWithout);
-  flags_of(i) = flags;
+  unsigned &mine = flags_of(i);
+  mine = (mine & ~kAllFlags) | flags;
 }
 
 int FixMassflowLsdcd::size_restart(int /*i*/)

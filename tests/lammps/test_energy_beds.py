@@ -124,7 +124,7 @@ def test_membrane(folder):
 
 
 CASK = cask(60, 0.6, lmp.pairs("granular/lsdcd", 0.05, coeff="{law}"), "granular {law} mesh cask.stl motion rotate 0 0 0 0 1 0 8 "
-            "wear archard 8e-3 50 deform every 10") + END
+            "wear archard 1.3e-2 50 deform every 10") + END
 
 
 def test_cask_that_wears(folder):
