@@ -391,10 +391,12 @@ int drive(double seconds, bool is_elastic)
     by_motor -= kDt / 2 * kTorque * 0.5 * (before + vehicle.moves()[0][2]);
   };
   forces(true);
-  const auto energy = [&] { return grains.energy() + vehicle.energy() + wall.totals().energy; };
+  const auto energy = [&] {
+    return grains.energy() + vehicle.energy() + wall.totals().elastic_energy;
+  };
   const double first = energy();
   book.add(grains.momentum() + vehicle.momentum(), 1);
-  double stored = grains.elastic + wall.totals().energy;
+  double stored = grains.elastic + wall.totals().elastic_energy;
   const int steps = static_cast<int>(std::lround(seconds / kDt));
   for (int k = 0; k < steps; k++) {
     kick();
@@ -402,7 +404,7 @@ int drive(double seconds, bool is_elastic)
     vehicle.drift();
     forces(false);
     kick();
-    const double now = grains.elastic + wall.totals().energy;
+    const double now = grains.elastic + wall.totals().elastic_energy;
     turned_over += std::fabs(now - stored);
     stored = now;
   }

@@ -801,16 +801,15 @@ LSDCD_API int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n,
 typedef struct lsdcd_wall_totals {
   size_t size;                /* of this struct; set by the caller */
   double force[3], torque[3]; /* of the spheres on the mesh; the torque about the point asked for */
-  double contacts;
-  double overlap;     /* the largest overlap / radius, or least half-axis */
-  double uncertified; /* spheres whose answer was not certified exact; see `nearest` */
-  double power;       /* of the mesh on the spheres, by its motion; of nodes half a step before */
-  double energy;      /* elastic */
-  double worn;        /* volume worn off so far */
-  double servo[3];    /* position, velocity, push; 0 without a servo */
+  double contacts;            /* that carry a force */
+  double overlap;             /* the largest overlap / radius, or least half-axis */
+  double uncertified;         /* spheres whose answer was not certified exact; see `nearest` */
+  double worn_volume;         /* worn off so far */
+  double power; /* of the mesh on the spheres, by its motion; of nodes half a step before */
+  double servo_position, servo_velocity, servo_push; /* 0 without a servo */
   /* With wear_deform_every, volumes times wear_deform_factor: by which wear has moved the mesh so far, and what has worn
    * at vertices that stay, as a triangle would fold over or meet another part of the mesh. */
-  double removed, held_back;
+  double removed_volume, held_back_volume;
   /* On a mesh with nodes_by_caller, which none of its nodes gets: the torque is that of their forces. */
   double couple[3];
   /* With average_every, means over the last so many steps that ended with one whose number divides by it, counted from
@@ -820,20 +819,29 @@ typedef struct lsdcd_wall_totals {
    * the first one. */
   double dissipated_power[5], dissipated[5];
   /* Energy lost by lever arms, stiffness, turned springs, and with contacts that are inserted and deleted. */
-  double other_losses[4];
+  double lost[4];
   /* Work of spheres and mesh on their contacts, of the mesh on the spheres, what contacts hold, and the remainder: contact_work less
    * all that is held or lost. */
-  double contact_work, drive_work, held, remainder;
+  double contact_work, drive_work, held_energy, remainder;
   /* With impact_speed: the number of impacts since the first step, and their energy, the sum of m v^2/2 with the speed along the
    * normal, and with a body's mobility in m. */
   double impacts, impact_energy;
   /* With `energy` and wear_deform_every: energy that contacts lose as wear moves the mesh. */
-  double wear_loss;
+  double lost_wear;
+  double elastic_energy; /* of overlaps and tangential springs, by the forces of the last step */
 } lsdcd_wall_totals;
-/* The totals of a mesh in the last step, over all processes; -1: of all, without servos. The torque is about the point `about`, of
+/* The totals of a mesh in the last step, over all processes; -1: of all, with the servo of the only mesh that has one. The torque is about the point `about`, of
  * the box, 3 numbers; null: about `torque_about` of each mesh. Own. */
 LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, const double *about,
                                     lsdcd_wall_totals *totals);
+/* Numbers of a mesh after the last step by their names, which are the same in LAMMPS (doc/wall_output.rst): `names` has n of them, apart
+ * by blanks, as "force_z power body_velocity_x"; -1: of all meshes. Numbers of a part that the wall does not have are 0. Torques are
+ * about `torque_about` of each mesh. LSDCD_ERROR_ARGUMENT: there is no such number, or `names` has not n. Own. */
+LSDCD_API int lsdcd_wall_get_outputs(lsdcd_wall *wall, int mesh, const char *names, double *to,
+                                     size_t n);
+/* Number k, from 0, of all that a wall may have: its name, the kind of its unit, and what it is (that of several
+ * components together), texts that stay. LSDCD_ERROR_ARGUMENT: there are not so many. */
+LSDCD_API int lsdcd_output_info(size_t k, const char **name, const char **unit, const char **text);
 /* Where a mesh is after the last step: what was at x when the wall was made is at R x + t. 12 numbers, rows of R, each
  * with its t, a length, behind it. LSDCD_ERROR_ARGUMENT: no such mesh. Alone. Own. */
 LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);

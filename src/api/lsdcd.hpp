@@ -1145,6 +1145,14 @@ class Wall {
   {
     return totals_about(mesh, about.data());
   }
+  // A number of a mesh after the last step by its name, which is the same in LAMMPS: "force_z"; -1: of all. Throws LSDCD_ERROR_ARGUMENT for a name
+  // that there is not.
+  double output(const std::string &name, int mesh = -1)
+  {
+    double number = 0;
+    c::check(lsdcd_wall_get_outputs(get(), mesh, name.c_str(), &number, 1));
+    return number;
+  }
   // Where mesh number `mesh` is, from 0, after the last step: what was at x when the wall was made is at R x + t. Three
   // rows of four numbers, each row of R with its t, a length, behind it, as Matrix has them. Throws
   // LSDCD_ERROR_ARGUMENT for a mesh that there is not.

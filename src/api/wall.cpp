@@ -8,9 +8,13 @@
 #include "api/wall_handle.h"
 #include "backend/cuda_available.h"
 #include "base/input_words.h"
+#include "wall/wall_outputs.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -44,6 +48,22 @@ WallBackend backend_of(const lsdcd_wall_options &o, lsdcd_wall &made)
   };
   return {make, true, to_cpu};
 }
+
+// A body has its lsdcd_body_state, and a mesh with a motion its pose.
+bool is_of_moving_mesh(OutputPart part)
+{
+  return part == OutputPart::body || part == OutputPart::motion;
+}
+
+struct OutputInfo {
+  std::string name;
+  const char *unit, *text;
+};
+
+constexpr std::size_t kTotals = 47;
+static_assert(sizeof(lsdcd_wall_totals) ==
+                  offsetof(lsdcd_wall_totals, force) + kTotals * sizeof(double),
+              "lsdcd_wall_totals has the rows of wall_outputs(), in their order");
 
 }    // namespace
 
@@ -115,60 +135,61 @@ int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, const double *about,
     check_mesh(*wall, mesh, -1);
     const Vec3 point = about ? checked_vector(about, "about") : Vec3{0, 0, 0};
     tell_late(*wall);
-    const StepTotals &all = wall->in->totals();
+    Wall &in = *wall->in;
+    double *to = out.force;
+    for (const WallOutput &output : wall_outputs()) {
+      if (is_of_moving_mesh(output.part)) continue;
+      for (int d = 0; d < output.row.n; d++) *to++ = output_value(in, mesh, output, d);
+    }
+    if (!about) return copy_out(out, totals);
+    const StepTotals &all = in.totals();
     const MeshTotals t = mesh < 0 ? all.of_all() : all.mesh(mesh);
-    const Vec3 torque = about ? t.torque_at_origin - cross(point, t.force) : t.torque;
-    for (int k = 0; k < 3; k++) {
-      out.force[k] = t.force[k];
-      out.torque[k] = torque[k];
-      out.couple[k] = t.couple[k];
-      out.servo[k] = 0;
-    }
-    out.contacts = t.contacts;
-    out.overlap = t.overlap;
-    out.uncertified = t.uncertified;
-    out.power = t.power;
-    out.energy = t.energy;
-    out.worn = out.removed = out.held_back = 0;
-    for (const MeshPart &m : wall->in->meshes()) {
-      if (mesh >= 0 && mesh != m.index) continue;
-      out.worn += wall->in->worn(m.index);
-      out.removed += wall->in->removed(m.index);
-      out.held_back += wall->in->held_back(m.index);
-    }
-    MeanLoad mean;
-    if (wall->in->spec().average_every > 0)
-      mean = mesh < 0 ? wall->in->means().of_all() : wall->in->means().mesh(mesh);
-    for (int k = 0; k < 3; k++) {
-      out.mean_force[k] = mean.force[k];
-      out.mean_torque[k] = mean.torque[k];
-    }
-    EnergyBooks &books = wall->in->energy();
-    const BookedEnergy e = mesh < 0 ? books.of_all() : books.mesh(mesh);
-    for (int k = 0; k < 5; k++) {
-      out.dissipated_power[k] = e.power(kCauses[k]);
-      out.dissipated[k] = e.rows[kCauses[k]];
-    }
-    for (int k = 0; k < 4; k++) out.other_losses[k] = e.rows[kOtherLosses[k]];
-    out.contact_work = e.rows[EnergyRow::work];
-    out.drive_work = e.rows[EnergyRow::drive];
-    out.held = e.rows[EnergyRow::held];
-    out.wear_loss = e.rows[EnergyRow::wear];
-    out.remainder = e.remainder();
-    out.impacts = out.impact_energy = 0;
-    for (const MeshPart &m : wall->in->meshes()) {
-      if ((mesh >= 0 && mesh != m.index) || !(wall->in->spec().impact_speed > 0)) continue;
-      const ImpactSpectrum spectrum = wall->in->impacts(m.index);
-      out.impacts += spectrum.impacts();
-      out.impact_energy += spectrum.energy();
-    }
-    if (mesh >= 0 && wall->in->meshes()[mesh].servo().present) {
-      const Servo &s = wall->in->meshes()[mesh].servo();
-      out.servo[0] = s.position;
-      out.servo[1] = s.velocity;
-      out.servo[2] = wall->in->servo_push(mesh);
-    }
+    const Vec3 torque = t.torque_at_origin - cross(point, t.force);
+    for (int k = 0; k < 3; k++) out.torque[k] = torque[k];
     copy_out(out, totals);
+  });
+}
+
+int lsdcd_wall_get_outputs(lsdcd_wall *wall, int mesh, const char *names, double *to, size_t n)
+{
+  return guard_wall(wall, [&] {
+    need(names, "names");
+    if (n > 0) need(to, "to");
+    check_mesh(*wall, mesh, -1);
+    std::istringstream in(names);
+    const std::vector<std::string> all{std::istream_iterator<std::string>(in), {}};
+    if (all.size() != n)
+      throw ApiError(LSDCD_ERROR_ARGUMENT, "n is " + std::to_string(n) + ", but names has " +
+                                               counted(all.size(), "word"));
+    for (const std::string &name : all)
+      if (!is_output(name))
+        throw ApiError(LSDCD_ERROR_ARGUMENT, "names: " + why_no_output(wall->in->spec(), name));
+    tell_late(*wall);
+    std::vector<Real> numbers;
+    for (const std::string &name : all) numbers.push_back(output_by_name(*wall->in, mesh, name));
+    std::copy(numbers.begin(), numbers.end(), to);
+  });
+}
+
+int lsdcd_output_info(size_t k, const char **name, const char **unit, const char **text)
+{
+  return guard([&] {
+    need(name, "name");
+    need(unit, "unit");
+    need(text, "text");
+    static const std::vector<OutputInfo> all = [] {
+      std::vector<OutputInfo> made;
+      for (const WallOutput &output : wall_outputs())
+        for (int d = 0; d < output.row.n; d++)
+          made.push_back({output_name(output.row, d), output.row.unit, output.row.text});
+      return made;
+    }();
+    if (k >= all.size())
+      throw ApiError(LSDCD_ERROR_ARGUMENT, "k is " + std::to_string(k) + "; there are " +
+                                               std::to_string(all.size()) + " numbers");
+    *name = all[k].name.c_str();
+    *unit = all[k].unit;
+    *text = all[k].text;
   });
 }
 

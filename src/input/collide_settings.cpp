@@ -17,7 +17,7 @@ const char *const kCollideSyntax =
     "degrees] "
     "[move x y z] [weld tol] [bodies one | molecule] [atoms FILE] [grid L | auto] [nearest N | "
     "all] [memory M] "
-    "[device cpu | cuda | auto] [log full | brief]";
+    "[device cpu | cuda | auto] [log full | brief] [names PREFIX NAME ...]";
 
 // False where the word is no keyword.
 bool read_word(const std::string &word, Tokens &w, CollideSettings &s)

@@ -127,6 +127,15 @@ FileEvery read_file_every(Tokens &w, const std::string &end)
   return file;
 }
 
+void read_name(Tokens &w, MeshSpec &s, InputNames &)
+{
+  if (w.done()) w.fail("the name is missing");
+  s.name = w.take();
+  Real number;
+  if (is_number(s.name, &number))
+    w.fail("the name of a mesh is no number, as meshes have numbers, too");
+}
+
 void read_torque_about(Tokens &w, MeshSpec &s, InputNames &)
 {
   s.torque_about_mesh = !w.done() && w.peek() == "mesh";
@@ -215,6 +224,8 @@ std::string first_value(const std::string &values)
 const Keyword kKeywords[] = {
     {"mesh", "FILE", "", "STL, OBJ, PLY, OFF", "",
      "the wall; more of them, each with its own keywords after it", nullptr, read_mesh},
+    {"name", "NAME", "", "no number", "FILE", "what fix_modify and messages call the mesh", nullptr,
+     read_name},
     {"scale", "s | sx sy sz", "", "not 0", "1",
      "multiply coordinates; scale, rotate and move act in the order given", nullptr, read_scale},
     {"rotate", "ax ay az degrees", "degrees", "axis not 0 0 0", "none",

@@ -19,28 +19,33 @@ bool changes(const std::string &word)
   return word == "motion" || word == "servo" || word == "body";
 }
 
-// [mesh K], where K counts from 1. Returns the mesh, from 0. `taken`: how many arguments that is.
-int mesh_of(const std::vector<std::string> &arguments, std::size_t meshes, std::size_t &taken)
+// Returns the mesh, from 0, that `mesh K` means: its number, from 1, or its name.
+int mesh_of(const std::vector<std::string> &arguments, const std::vector<MeshSpec> &meshes)
 {
-  const std::string n = std::to_string(meshes);
-  taken = 0;
-  if (arguments[0] != "mesh") {
-    if (meshes == 1) return 0;
-    throw InputError("fix_modify " + arguments[0] + ": which of the " + n +
-                     " meshes? Write fix_modify ID mesh K " + arguments[0] + " ..., with K from 1");
-  }
+  const std::string begins = "fix_modify mesh K motion|servo|body|names ...: K is the number of a "
+                             "mesh, from 1 to " +
+                             std::to_string(meshes.size()) + ", or its name";
+  if (arguments.size() < 2) throw InputError(begins);
+  const std::string &given = arguments[1];
   Real k = 0;
-  if (arguments.size() < 2 || !is_number(arguments[1], &k) || k != std::floor(k) || k < 1 ||
-      k > static_cast<Real>(meshes))
-    throw InputError(
-        "fix_modify mesh K motion|servo|body ...: K is the number of a mesh, from 1 to " + n +
-        (arguments.size() > 1 ? ", not '" + arguments[1] + "'" : ""));
-  taken = 2;
-  if (arguments.size() < 3 || !changes(arguments[2]))
-    throw InputError("fix_modify mesh " + arguments[1] +
-                     ": motion ..., servo ... or body ... must follow" +
-                     (arguments.size() < 3 ? "" : ", not '" + arguments[2] + "'"));
-  return static_cast<int>(k) - 1;
+  if (is_number(given, &k)) {
+    if (k != std::floor(k) || k < 1 || k > static_cast<Real>(meshes.size()))
+      throw InputError(begins + ", not '" + given + "'");
+    return static_cast<int>(k) - 1;
+  }
+  int found = -1;
+  for (std::size_t mesh = 0; mesh < meshes.size(); mesh++) {
+    if (meshes[mesh].name != given) continue;
+    if (found >= 0)
+      throw InputError("fix_modify mesh " + given + ": meshes " + std::to_string(found + 1) +
+                       " and " + std::to_string(mesh + 1) +
+                       " are called so: give the number of one, or names by the keyword name");
+    found = static_cast<int>(mesh);
+  }
+  if (found >= 0) return found;
+  std::vector<std::string> names;
+  for (const MeshSpec &mesh : meshes) names.push_back(mesh.name);
+  throw InputError(begins + ", not '" + given + "': " + nearest_or_all(given, names));
 }
 
 }    // namespace
@@ -48,8 +53,17 @@ int mesh_of(const std::vector<std::string> &arguments, std::size_t meshes, std::
 int change_wall(Wall &wall, const std::vector<std::string> &arguments, const Step &now)
 {
   if (arguments[0] != "mesh" && !changes(arguments[0])) return 0;
-  std::size_t taken;
-  const int mesh = mesh_of(arguments, wall.meshes().size(), taken);
+  const std::vector<MeshSpec> &meshes = wall.spec().meshes;
+  const std::size_t taken = arguments[0] == "mesh" ? 2 : 0;
+  if (!taken && meshes.size() > 1)
+    throw InputError("fix_modify " + arguments[0] + ": which of the " +
+                     std::to_string(meshes.size()) + " meshes? Write fix_modify ID mesh K " +
+                     arguments[0] + " ..., with K from 1, or the name of a mesh");
+  const int mesh = taken ? mesh_of(arguments, meshes) : 0;
+  if (arguments.size() <= taken || !changes(arguments[taken]))
+    throw InputError("fix_modify mesh " + arguments[1] +
+                     ": motion ..., servo ..., body ... or names ... must follow" +
+                     (arguments.size() <= taken ? "" : ", not '" + arguments[taken] + "'"));
   Tokens w(arguments);
   while (w.at() < taken) w.take();
   std::vector<std::string> inputs = wall.spec().inputs;
@@ -69,6 +83,16 @@ int change_wall(Wall &wall, const std::vector<std::string> &arguments, const Ste
     wall.set_servo(mesh, servo);
   }
   return static_cast<int>(w.at());
+}
+
+bool asks_for_names(const Wall &wall, std::vector<std::string> &arguments, int &mesh)
+{
+  mesh = -1;
+  const std::size_t at = arguments[0] == "mesh" ? 2 : 0;
+  if (arguments.size() <= at || arguments[at] != "names") return false;
+  if (at) mesh = mesh_of(arguments, wall.spec().meshes);
+  arguments.erase(arguments.begin(), arguments.begin() + static_cast<std::ptrdiff_t>(at));
+  return true;
 }
 
 }    // namespace lsdcd

@@ -165,6 +165,18 @@ void read_keywords(Tokens &w, WallCommand &command, bool granular)
   }
 }
 
+// Throws InputError where two meshes have one name; without the keyword name a mesh is called by its file, of which there may be several.
+void check_names(const std::vector<MeshSpec> &meshes)
+{
+  for (std::size_t k = 1; k < meshes.size(); k++)
+    for (std::size_t i = 0; i < k; i++) {
+      const bool named = meshes[k].name != meshes[k].file || meshes[i].name != meshes[i].file;
+      if (named && meshes[k].name == meshes[i].name)
+        throw InputError("in 'name', meshes " + std::to_string(i + 1) + " and " +
+                         std::to_string(k + 1) + " have the same name '" + meshes[k].name + "'");
+    }
+}
+
 }    // namespace
 
 WallCommand parse_wall(const std::vector<std::string> &arguments, const LawsOfMaterials &laws_of)
@@ -183,6 +195,7 @@ WallCommand parse_wall(const std::vector<std::string> &arguments, const LawsOfMa
   read_keywords(w, command, granular);
   w.set_context("fix wall/lsdcd", granular ? granular_syntax() : law_syntax());
   if (wall.meshes[0].file.empty()) w.fail("mesh FILE is missing");
+  check_names(wall.meshes);
   if (has_materials) add_laws(command.materials, laws_of, wall);
   finish_laws(wall);
   check_spec(wall);

@@ -51,10 +51,16 @@ BodyPose in_frame_of(const lsdcd::Pose &wall, const BodyPose &pose)
 }    // namespace
 
 ComputeCollideLsdcd::ComputeCollideLsdcd(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), OwnMessages(lmp, "Compute", id, "lsdcd/collide")
+    Compute(lmp, narg, arg), OwnMessages(lmp, "Compute", id, "lsdcd/collide"),
+    variables(lmp, std::string("c_") + id)
 {
+  std::vector<std::string> names;    // with what follows the word, which comes last
   run_core([&] {
-    settings = lsdcd::parse_collide(words_of(arg + 3, arg + narg));
+    std::vector<std::string> words = words_of(arg + 3, arg + narg);
+    const auto begins = std::find(words.begin(), words.end(), "names");
+    names.assign(begins, words.end());
+    words.erase(begins, words.end());
+    settings = lsdcd::parse_collide(words);
     lsdcd::MpiHost mpi(world);
     const lsdcd::WeldedMesh mesh = lsdcd::read_together(mpi, settings.mesh);
     if (mesh.faces.empty())
@@ -76,6 +82,10 @@ ComputeCollideLsdcd::ComputeCollideLsdcd(LAMMPS *lmp, int narg, char **arg) :
   size_array_cols = 2;
   vector = new double[size_vector];
   memory->create(array, size_array_rows, size_array_cols, "lsdcd/collide:array");
+  run_core([&] {
+    if (!names.empty())
+      variables.make(names, lsdcd::named_elements(lsdcd::collide_outputs(), true));
+  });
 }
 
 ComputeCollideLsdcd::~ComputeCollideLsdcd()

@@ -11,6 +11,7 @@
 #include "bodies/mesh_collision.h"
 #include "box/periodic_box.h"
 #include "input/collide_settings.h"
+#include "lammps/output_variables.h"
 #include "lammps/own_messages.h"
 #include "wall/spec/run_files.h"
 
@@ -60,6 +61,7 @@ class ComputeCollideLsdcd : public Compute, protected OwnMessages {
   };
 
   lsdcd::CollideSettings settings;
+  OutputVariables variables;
   std::vector<Body> bodies;
   std::unordered_map<tagint, BodyPoint> body_point_of;    // by an atom's tag
   std::unique_ptr<lsdcd::PosePoints> points;    // that all bodies have, where their mesh is

@@ -59,16 +59,23 @@ class NveSphere : public Fix {
 }    // namespace
 
 ComputeEnergyLsdcd::ComputeEnergyLsdcd(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), OwnMessages(lmp, "Compute", id, "lsdcd/energy")
+    Compute(lmp, narg, arg), OwnMessages(lmp, "Compute", id, "lsdcd/energy"),
+    variables(lmp, std::string("c_") + id)
 {
-  if (narg != 3)
-    fatal(std::string("'") + arg[3] + "' is not expected: compute ID all lsdcd/energy");
+  const char *const kSyntax = "compute ID all lsdcd/energy [names PREFIX NAME ...]";
+  if (narg > 3 && std::strcmp(arg[3], "names") != 0)
+    fatal(std::string("'") + arg[3] + "' is not expected: " + kSyntax);
   if (igroup != 0) fatal("pairs are of all atoms: compute ID all lsdcd/energy");
 
   scalar_flag = vector_flag = 1;
   extscalar = extvector = 1;
   size_vector = kNumbers;
   vector = new double[kNumbers];
+  run_core([&] {
+    if (narg > 3)
+      variables.make(words_of(arg + 3, arg + narg),
+                     lsdcd::named_elements(lsdcd::energy_outputs(), true));
+  });
 }
 
 ComputeEnergyLsdcd::~ComputeEnergyLsdcd()

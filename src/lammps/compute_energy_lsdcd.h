@@ -7,6 +7,7 @@
 
 #include "compute.h"
 
+#include "lammps/output_variables.h"
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
 
@@ -31,6 +32,7 @@ class ComputeEnergyLsdcd : public Compute, protected OwnMessages {
   double kinetic() const;
   double potential() const;
 
+  OutputVariables variables;
   bool told = false;             // of a wall that books nothing
   bool told_of_rerun = false;    // in which nothing is booked
   int discs = 0;                 // bits of the groups whose grains are discs

@@ -112,7 +112,8 @@ class LammpsSite : public lsdcd::InsertionSite {
 }    // namespace LAMMPS_NS
 
 FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "insert/lsdcd")
+    Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "insert/lsdcd"),
+    variables(lmp, std::string("f_") + id)
 {
   if (!atom->radius_flag || !atom->rmass_flag)
     fatal("atoms need a radius and a mass each: use atom_style sphere");
@@ -611,6 +612,14 @@ double FixInsertLsdcd::compute_vector(int i)
       double(insertion->inserted()), insertion->inserted_mass(), double(late.number),     late.mass,
       double(refused.grains),        double(refused.walls),      double(refused.no_place)};
   return values[i];
+}
+
+int FixInsertLsdcd::modify_param(int narg, char **arg)
+{
+  const std::vector<std::string> words = words_of(arg, arg + narg);
+  if (words[0] != "names") return 0;
+  variables.make(words, lsdcd::named_elements(lsdcd::insertion_outputs(), false));
+  return narg;
 }
 
 void FixInsertLsdcd::write_restart(FILE *file)

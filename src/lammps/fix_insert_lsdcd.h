@@ -10,6 +10,7 @@
 
 #include "input/insert_settings.h"
 #include "insert/inlet_face.h"
+#include "lammps/output_variables.h"
 #include "lammps/own_messages.h"
 #include "lammps/wall_clearance.h"
 
@@ -36,6 +37,7 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   void post_run() override;
 
   double compute_vector(int) override;
+  int modify_param(int, char **) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
   double memory_usage() override;
@@ -50,6 +52,7 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   friend class LammpsSite;
 
   lsdcd::InsertSettings settings;
+  OutputVariables variables;
   std::unique_ptr<lsdcd::InletFace> face;    // without it: a region
   class Region *region = nullptr;
   lsdcd::Vec3 velocity = {0, 0, 0};

@@ -30,7 +30,8 @@ using lsdcd::number_text;
 using lsdcd::Vec3;
 
 FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "massflow/lsdcd")
+    Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "massflow/lsdcd"),
+    variables(lmp, std::string("f_") + id)
 {
   run_core([&] {
     settings = lsdcd::parse_massflow(words_of(arg + 3, arg + narg));

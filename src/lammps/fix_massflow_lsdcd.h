@@ -10,6 +10,7 @@
 #include "flow/flow_surface.h"
 #include "flow/pass_file.h"
 #include "input/massflow_settings.h"
+#include "lammps/output_variables.h"
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
 #include "wall/spec/run_files.h"
@@ -52,6 +53,8 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
+  int modify_param(int, char **) override;
+
   bool deletes() const { return settings.deletes; }
   std::vector<lsdcd::RunFile> files() const;    // that it reads and writes
 
@@ -78,6 +81,7 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   void forget_tracks() { std::vector<Track>().swap(tracks); }    // for a form with others
 
   lsdcd::MassflowSettings settings;
+  OutputVariables variables;
   std::unique_ptr<lsdcd::FlowSurface> surface;
   double near_within = 0;       // atoms with less clearance are near
   bool look_at_all = true;      // in the next step

@@ -5,6 +5,7 @@
 
 #include "lammps/fix_massflow_lsdcd.h"
 
+#include "base/input_words.h"
 #include "base/number_words.h"
 #include "lammps/mpi_host.h"
 #include "lammps/restart_data.h"
@@ -107,6 +108,29 @@ double FixMassflowLsdcd::compute_vector(int i)
   double sum = 0;
   for (int type = 0; type < size_array_rows; type++) sum += totals[kColumns * type + i];
   return sum;
+}
+
+// [type I] names ...
+int FixMassflowLsdcd::modify_param(int narg, char **arg)
+{
+  std::vector<std::string> words = words_of(arg, arg + narg);
+  const bool of_type = words[0] == "type";
+  if (!of_type && words[0] != "names") return 0;
+  int type = 0;
+  if (of_type) {
+    lsdcd::Tokens w(words);
+    w.set_context("fix_modify type", "fix_modify ID type I names PREFIX NAME ...");
+    w.take();
+    type = static_cast<int>(w.whole("the atom type", 1, size_array_rows));
+    if (w.done() || w.peek() != "names") w.fail("names PREFIX NAME ... is missing");
+    words.erase(words.begin(), words.begin() + 2);
+  }
+  variables.make(
+      words,
+      lsdcd::named_elements(of_type ? lsdcd::massflow_outputs_by_type() : lsdcd::massflow_outputs(),
+                            false),
+      type);
+  return narg;
 }
 
 void FixMassflowLsdcd::write_restart(FILE *file)

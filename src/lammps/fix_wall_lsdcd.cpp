@@ -41,7 +41,8 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallBackend &place) :
-    Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "wall/lsdcd")
+    Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "wall/lsdcd"),
+    variables(lmp, std::string("f_") + id)
 {
 #if __has_include("atom_masks.h")
   // A host with its atoms on a GPU brings all for this fix, as variables, nodes and ellipsoids may read any, and takes these back.
@@ -102,7 +103,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   extarray = 0;
   std::vector<int> adds_up;
   for (const lsdcd::WallOutput &row : lsdcd::wall_outputs())
-    adds_up.insert(adds_up.end(), row.n, row.adds_up);
+    adds_up.insert(adds_up.end(), row.row.n, row.adds_up);
   extlist = new int[adds_up.size()];
   std::copy(adds_up.begin(), adds_up.end(), extlist);
   energy_global_flag = 1;
@@ -588,12 +589,25 @@ double FixWallLsdcd::compute_scalar()
 
 double FixWallLsdcd::compute_array(int mesh, int i)
 {
-  return lsdcd::output_of_mesh(*wall, mesh, i);
+  return lsdcd::output_of(*wall, mesh, i);
 }
 
 double FixWallLsdcd::compute_vector(int i)
 {
-  return lsdcd::output_of_wall(*wall, i);
+  return lsdcd::output_of(*wall, -1, i);
+}
+
+// The only mesh of a wall has the numbers of the wall.
+void FixWallLsdcd::name_outputs(const std::vector<std::string> &words, int mesh)
+{
+  std::vector<lsdcd::NamedElement> known = lsdcd::named_outputs(spec());
+  const int row = array_flag && mesh >= 0 ? mesh + 1 : 0;
+  if (row > 0) known.pop_back();    // the scalar, which is of the wall
+  variables.make(words, known, row, [&](const std::string &name) {
+    if (row > 0 && name == lsdcd::named_outputs(spec()).back().name)
+      return "'" + name + "' is of all meshes together: leave out mesh K";
+    return lsdcd::why_no_output(spec(), name);
+  });
 }
 
 void FixWallLsdcd::fill_contacts()
@@ -653,7 +667,13 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
 
 int FixWallLsdcd::modify_param(int narg, char **arg)
 {
-  const int taken = lsdcd::change_wall(*wall, words_of(arg, arg + narg), step_now());
+  std::vector<std::string> words = words_of(arg, arg + narg);
+  int mesh;
+  if (lsdcd::asks_for_names(*wall, words, mesh)) {
+    name_outputs(words, mesh);
+    return narg;
+  }
+  const int taken = lsdcd::change_wall(*wall, words, step_now());
   size_vector = size_array_cols = lsdcd::n_outputs(spec());
   return taken;
 }

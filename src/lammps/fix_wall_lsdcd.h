@@ -9,6 +9,7 @@
 
 #include "lammps/lammps_host.h"
 #include "lammps/node_atoms.h"
+#include "lammps/output_variables.h"
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
 #include "lammps/shape_atoms.h"
@@ -85,6 +86,8 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   LammpsHost host{*this};
   std::unique_ptr<ShapeAtoms> shape_atoms;    // null: all atoms are spheres
   std::unique_ptr<lsdcd::Wall> wall;
+  OutputVariables variables;
+  void name_outputs(const std::vector<std::string> &words, int mesh);
   std::vector<std::string> material_files;    // that the first process has read
 
   RerunWatch watch;

@@ -48,6 +48,7 @@ std::string types_text(int i, int j)
   return std::to_string(i) + " and " + std::to_string(j);
 }
 
+#if HOST_HAS_HEAT
 // Returns whether LAMMPS sends the heat of ghost atoms to their owners.
 bool heat_goes_back(Modify &modify)
 {
@@ -56,6 +57,7 @@ bool heat_goes_back(Modify &modify)
     return std::strcmp(fix->style, "heat/flow") == 0 && fix->comm_reverse > 0;
   });
 }
+#endif
 
 }    // namespace
 

@@ -3,6 +3,7 @@
 
 #include "wall/wall_outputs.h"
 
+#include "base/input_words.h"
 #include "base/quaternion.h"
 
 #include <algorithm>
@@ -229,6 +230,8 @@ bool has(const WallSpec &wall, OutputPart part)
       return wall.energy;
     case OutputPart::impacts:
       return wall.impact_speed > 0;
+    case OutputPart::scalar:
+      return false;
     default:
       return true;
   }
@@ -248,97 +251,256 @@ int only_mesh_with(const WallSpec &wall, bool (*has)(const MeshSpec &))
 
 }    // namespace
 
+const char *keyword_of(OutputPart part)
+{
+  switch (part) {
+    case OutputPart::servo:
+      return "*servo*";
+    case OutputPart::body:
+      return "*body*";
+    case OutputPart::wear:
+      return "*wear ... deform*";
+    case OutputPart::nodes:
+      return "*nodes*";
+    case OutputPart::means:
+      return "*average*";
+    case OutputPart::motion:
+      return "*motion*";
+    case OutputPart::energy:
+      return "*energy*";
+    case OutputPart::impacts:
+      return "*impacts*";
+    case OutputPart::wear_energy:
+      return "*energy* with *wear ... deform*";
+    default:
+      return "";
+  }
+}
+
 const std::vector<WallOutput> &wall_outputs()
 {
   using P = OutputPart;
   using T = MeshTotals;
   const bool adds_up = true, is_one = false;
+  const char *const xyz = "x y z", *const wxyz = "w x y z", *const one = "";
+  const char *const causes = "damping slider rolling twisting adhesion";
   static const std::vector<WallOutput> all = {
-      {3, "force", "force on the mesh, x y z", "force units", adds_up, P::every_wall,
-       vector_of<&T::force>, vector_of_all<&T::force>},
-      {3, "torque", "torque on the mesh about the point of *torque_about*, x y z", "torque units",
-       adds_up, P::every_wall, vector_of<&T::torque>, vector_of_all<&T::torque>},
-      {1, "contacts", "number of contacts that carry a force", "", adds_up, P::every_wall,
-       number_of<&T::contacts>, number_of_all<&T::contacts>},
-      {1, "overlap",
-       "largest overlap divided by the radius, of an ellipsoid by its least half-axis", "", is_one,
-       P::every_wall, number_of<&T::overlap>, number_of_all<&T::overlap>},
-      {1, "uncertified",
-       "number of spheres whose contacts are not certified exact; 0 except with *nearest N*", "",
-       adds_up, P::every_wall, number_of<&T::uncertified>, number_of_all<&T::uncertified>},
-      {1, "worn", "volume worn off since the beginning; 0 without *wear*", "volume units", adds_up,
-       P::every_wall, worn, nullptr},
-      {1, "power", "power of the moving mesh on the spheres", "energy/time units", adds_up,
-       P::every_wall, power, power_of_all},
-      {1, "servo", "position of the servo; 0 without one", "distance units; with *torque* radians",
-       is_one, P::servo, of_servo<0>, nullptr},
-      {1, "servo", "its speed", "velocity units; with *torque* radians/time", is_one, P::servo,
-       of_servo<1>, nullptr},
-      {1, "servo", "its push on the spheres", "force units; with *torque* torque units", adds_up,
-       P::servo, of_servo<2>, nullptr},
-      {3, "centre", "centre of mass of the body, x y z", "distance units", is_one, P::body,
-       of_body<centre>, nullptr},
-      {3, "velocity", "its velocity, x y z", "velocity units", is_one, P::body, of_body<velocity>,
+      {{3, "force", xyz, "force on the mesh, x y z", "force units"},
+       adds_up,
+       P::every_wall,
+       vector_of<&T::force>,
+       vector_of_all<&T::force>},
+      {{3, "torque", xyz, "torque on the mesh about the point of *torque_about*, x y z",
+        "torque units"},
+       adds_up,
+       P::every_wall,
+       vector_of<&T::torque>,
+       vector_of_all<&T::torque>},
+      {{1, "contacts", one, "number of contacts that carry a force", ""},
+       adds_up,
+       P::every_wall,
+       number_of<&T::contacts>,
+       number_of_all<&T::contacts>},
+      {{1, "overlap", one,
+        "largest overlap divided by the radius, of an ellipsoid by its least half-axis", ""},
+       is_one,
+       P::every_wall,
+       number_of<&T::overlap>,
+       number_of_all<&T::overlap>},
+      {{1, "uncertified", one,
+        "number of spheres whose contacts are not certified exact; 0 except with *nearest N*", ""},
+       adds_up,
+       P::every_wall,
+       number_of<&T::uncertified>,
+       number_of_all<&T::uncertified>},
+      {{1, "worn_volume", one, "volume worn off since the beginning; 0 without *wear*",
+        "volume units"},
+       adds_up,
+       P::every_wall,
+       worn,
        nullptr},
-      {4, "quaternion", "its rotation since the start, a quaternion w x y z", "", is_one, P::body,
-       of_body<turn>, nullptr},
-      {3, "angular_velocity", "its angular velocity, x y z", "radians/time", is_one, P::body,
-       of_body<omega>, nullptr},
-      {3, "reaction_force", "force that the joint exerts on the body to hold it, x y z",
-       "force units", adds_up, P::body, of_body<reaction_force>, nullptr},
-      {3, "reaction_torque",
-       "torque that it exerts, x y z, about the joint's point or, for *slider* and *planar*, the "
-       "centre",
-       "torque units", adds_up, P::body, of_body<reaction_torque>, nullptr},
-      {1, "coordinate", "coordinate of *hinge* or *slider*; 0 with another joint",
-       "radians; with *slider* distance units", is_one, P::body, of_body<coordinate>, nullptr},
-      {1, "energy", "kinetic energy of the body, with that of its spring", "energy units", adds_up,
-       P::body, of_body<energy>, nullptr},
-      {1, "removed", "volume by which *wear ... deform* has moved the mesh", "volume units",
-       adds_up, P::wear, removed, nullptr},
-      {1, "held_back", "volume that it has held back, because triangles would fold over or meet",
-       "volume units", adds_up, P::wear, held_back, nullptr},
-      {3, "couple", "torque on a mesh with *nodes* that none of its nodes gets, x y z",
-       "torque units", adds_up, P::nodes, vector_of<&T::couple>, nullptr},
-      {1, "stop_force",
-       "force of a stop (*limits*) on the body along the axis of its *slider*, or torque about "
-       "that "
-       "of its *hinge*; 0 where the body is at none",
-       "force or torque units", adds_up, P::body, of_body<stop_force>, nullptr},
-      {3, "mean_force", "with *average N* the mean of 1-3 over N steps, x y z", "force units",
-       adds_up, P::means, mean_of<&MeanLoad::force>, mean_of_all<&MeanLoad::force>},
-      {3, "mean_torque", "likewise of 4-6", "torque units", adds_up, P::means,
-       mean_of<&MeanLoad::torque>, mean_of_all<&MeanLoad::torque>},
-      {3, "pose",
-       "place of a mesh with *motion*: of its point that was at 0 0 0 at the start, x y z",
-       "distance units", is_one, P::motion, place, nullptr},
-      {4, "pose", "its rotation since the start, a quaternion w x y z", "", is_one, P::motion,
-       orientation, nullptr},
-      {5, "dissipated_power",
-       "power that contacts dissipate in the step: damping, slider, rolling, twisting, adhesion",
-       "energy/time units", adds_up, P::energy, energy_of<dissipated_power>,
+      {{1, "power", one, "power of the moving mesh on the spheres", "energy/time units"},
+       adds_up,
+       P::every_wall,
+       power,
+       power_of_all},
+      {{1, "servo_position", one, "position of the servo; 0 without one",
+        "distance units; with *torque* radians"},
+       is_one,
+       P::servo,
+       of_servo<0>,
+       nullptr},
+      {{1, "servo_velocity", one, "its speed", "velocity units; with *torque* radians/time"},
+       is_one,
+       P::servo,
+       of_servo<1>,
+       nullptr},
+      {{1, "servo_push", one, "its push on the spheres", "force units; with *torque* torque units"},
+       adds_up,
+       P::servo,
+       of_servo<2>,
+       nullptr},
+      {{3, "body_centre", xyz, "centre of mass of the body, x y z", "distance units"},
+       is_one,
+       P::body,
+       of_body<centre>,
+       nullptr},
+      {{3, "body_velocity", xyz, "its velocity, x y z", "velocity units"},
+       is_one,
+       P::body,
+       of_body<velocity>,
+       nullptr},
+      {{4, "body_quaternion", wxyz, "its rotation since the start, a quaternion w x y z", ""},
+       is_one,
+       P::body,
+       of_body<turn>,
+       nullptr},
+      {{3, "body_angular_velocity", xyz, "its angular velocity, x y z", "radians/time"},
+       is_one,
+       P::body,
+       of_body<omega>,
+       nullptr},
+      {{3, "body_reaction_force", xyz, "force that the joint exerts on the body to hold it, x y z",
+        "force units"},
+       adds_up,
+       P::body,
+       of_body<reaction_force>,
+       nullptr},
+      {{3, "body_reaction_torque", xyz,
+        "torque that it exerts, x y z, about the joint's point or, for *slider* and *planar*, the "
+        "centre",
+        "torque units"},
+       adds_up,
+       P::body,
+       of_body<reaction_torque>,
+       nullptr},
+      {{1, "body_coordinate", one, "coordinate of *hinge* or *slider*; 0 with another joint",
+        "radians; with *slider* distance units"},
+       is_one,
+       P::body,
+       of_body<coordinate>,
+       nullptr},
+      {{1, "body_energy", one, "kinetic energy of the body, with that of its spring",
+        "energy units"},
+       adds_up,
+       P::body,
+       of_body<energy>,
+       nullptr},
+      {{1, "removed_volume", one, "volume by which *wear ... deform* has moved the mesh",
+        "volume units"},
+       adds_up,
+       P::wear,
+       removed,
+       nullptr},
+      {{1, "held_back_volume", one,
+        "volume that it has held back, because triangles would fold over or meet", "volume units"},
+       adds_up,
+       P::wear,
+       held_back,
+       nullptr},
+      {{3, "couple", xyz, "torque on a mesh with *nodes* that none of its nodes gets, x y z",
+        "torque units"},
+       adds_up,
+       P::nodes,
+       vector_of<&T::couple>,
+       nullptr},
+      {{1, "body_stop_force", one,
+        "force of a stop (*limits*) on the body along the axis of its *slider*, or torque about "
+        "that "
+        "of its *hinge*; 0 where the body is at none",
+        "force or torque units"},
+       adds_up,
+       P::body,
+       of_body<stop_force>,
+       nullptr},
+      {{3, "mean_force", xyz, "with *average N* the mean of 1-3 over N steps, x y z",
+        "force units"},
+       adds_up,
+       P::means,
+       mean_of<&MeanLoad::force>,
+       mean_of_all<&MeanLoad::force>},
+      {{3, "mean_torque", xyz, "likewise of 4-6", "torque units"},
+       adds_up,
+       P::means,
+       mean_of<&MeanLoad::torque>,
+       mean_of_all<&MeanLoad::torque>},
+      {{3, "position", xyz,
+        "place of a mesh with *motion*: of its point that was at 0 0 0 at the start, x y z",
+        "distance units"},
+       is_one,
+       P::motion,
+       place,
+       nullptr},
+      {{4, "quaternion", wxyz, "its rotation since the start, a quaternion w x y z", ""},
+       is_one,
+       P::motion,
+       orientation,
+       nullptr},
+      {{5, "dissipated_power", causes,
+        "power that contacts dissipate in the step: damping, slider, rolling, twisting, adhesion",
+        "energy/time units"},
+       adds_up,
+       P::energy,
+       energy_of<dissipated_power>,
        energy_of_all<dissipated_power>},
-      {5, "dissipated", "likewise energy since the beginning", "energy units", adds_up, P::energy,
-       energy_of<dissipated>, energy_of_all<dissipated>},
-      {4, "other_losses",
-       "energy that is lost by lever arms, stiffness, turned springs, and with contacts that are "
-       "inserted and deleted",
-       "energy units", adds_up, P::energy, energy_of<other_losses>, energy_of_all<other_losses>},
-      {1, "contact_work", "work of grains and mesh on their contacts", "energy units", adds_up,
-       P::energy, energy_of<sum_of<EnergyRow::work>>, energy_of_all<sum_of<EnergyRow::work>>},
-      {1, "drive_work", "work of the moving mesh on the spheres", "energy units", adds_up,
-       P::energy, energy_of<sum_of<EnergyRow::drive>>, energy_of_all<sum_of<EnergyRow::drive>>},
-      {1, "held", "elastic energy of contacts after the last step", "energy units", adds_up,
-       P::energy, energy_of<sum_of<EnergyRow::held>>, energy_of_all<sum_of<EnergyRow::held>>},
-      {1, "remainder", "contact work less all of the rows above: what the timestep costs",
-       "energy units", adds_up, P::energy, energy_of<remainder>, energy_of_all<remainder>},
-      {1, "impacts", "number of impacts since the beginning", "", adds_up, P::impacts, impacts,
+      {{5, "dissipated", causes, "likewise energy since the beginning", "energy units"},
+       adds_up,
+       P::energy,
+       energy_of<dissipated>,
+       energy_of_all<dissipated>},
+      {{4, "lost", "lever_arms stiffness turned_springs inserted",
+        "energy that is lost by lever arms, stiffness, turned springs, and with contacts that are "
+        "inserted and deleted",
+        "energy units"},
+       adds_up,
+       P::energy,
+       energy_of<other_losses>,
+       energy_of_all<other_losses>},
+      {{1, "contact_work", one, "work of grains and mesh on their contacts", "energy units"},
+       adds_up,
+       P::energy,
+       energy_of<sum_of<EnergyRow::work>>,
+       energy_of_all<sum_of<EnergyRow::work>>},
+      {{1, "drive_work", one, "work of the moving mesh on the spheres", "energy units"},
+       adds_up,
+       P::energy,
+       energy_of<sum_of<EnergyRow::drive>>,
+       energy_of_all<sum_of<EnergyRow::drive>>},
+      {{1, "held_energy", one, "elastic energy of contacts after the last step", "energy units"},
+       adds_up,
+       P::energy,
+       energy_of<sum_of<EnergyRow::held>>,
+       energy_of_all<sum_of<EnergyRow::held>>},
+      {{1, "remainder", one, "contact work less all of the rows above: what the timestep costs",
+        "energy units"},
+       adds_up,
+       P::energy,
+       energy_of<remainder>,
+       energy_of_all<remainder>},
+      {{1, "impacts", one, "number of impacts since the beginning", ""},
+       adds_up,
+       P::impacts,
+       impacts,
        nullptr},
-      {1, "impact_energy", "their energy, the sum of m v^2/2 with the speed along the normal",
-       "energy units", adds_up, P::impacts, impact_energy, nullptr},
-      {1, "wear_loss", "energy that contacts lose as *wear ... deform* moves the mesh",
-       "energy units", adds_up, P::wear_energy, energy_of<sum_of<EnergyRow::wear>>,
-       energy_of_all<sum_of<EnergyRow::wear>>}};
+      {{1, "impact_energy", one, "their energy, the sum of m v^2/2 with the speed along the normal",
+        "energy units"},
+       adds_up,
+       P::impacts,
+       impact_energy,
+       nullptr},
+      {{1, "lost_wear", one, "energy that contacts lose as *wear ... deform* moves the mesh",
+        "energy units"},
+       adds_up,
+       P::wear_energy,
+       energy_of<sum_of<EnergyRow::wear>>,
+       energy_of_all<sum_of<EnergyRow::wear>>},
+      {{1, "elastic_energy", one,
+        "elastic energy of overlaps and tangential springs, by the forces of the last step",
+        "energy units"},
+       adds_up,
+       P::scalar,
+       number_of<&T::energy>,
+       number_of_all<&T::energy>}};
   return all;
 }
 
@@ -346,40 +508,83 @@ int n_outputs(const WallSpec &wall)
 {
   int n = 0, columns = 0;
   for (const WallOutput &row : wall_outputs()) {
-    n += row.n;
+    n += row.row.n;
     if (has(wall, row.part)) columns = n;
   }
   return columns;
 }
 
-// Returns the row of a column, which becomes one of the row's own.
-static const WallOutput &output_row(int &column)
+Real output_value(Wall &wall, int mesh, const WallOutput &output, int d)
 {
-  const WallOutput *row = wall_outputs().data();
-  for (; column >= row->n; row++) column -= row->n;
-  return *row;
-}
-
-Real output_of_mesh(Wall &wall, int mesh, int column)
-{
-  return output_row(column).of_mesh(wall, mesh, column);
-}
-
-Real output_of_wall(Wall &wall, int column)
-{
-  const WallOutput &row = output_row(column);
-  if (row.of_all) return row.of_all(wall, column);
-  bool (*const owner)(const MeshSpec &) = row.part == OutputPart::servo    ? has_servo
-                                          : row.part == OutputPart::body   ? is_body
-                                          : row.part == OutputPart::motion ? has_motion
-                                                                           : nullptr;
+  if (output.part != OutputPart::scalar && !has(wall.spec(), output.part)) return 0;
+  if (mesh >= 0) return output.of_mesh(wall, mesh, d);
+  if (output.of_all) return output.of_all(wall, d);
+  bool (*const owner)(const MeshSpec &) = output.part == OutputPart::servo    ? has_servo
+                                          : output.part == OutputPart::body   ? is_body
+                                          : output.part == OutputPart::motion ? has_motion
+                                                                              : nullptr;
   if (owner) {
-    const int mesh = only_mesh_with(wall.spec(), owner);
-    return mesh < 0 ? 0 : row.of_mesh(wall, mesh, column);
+    const int only = only_mesh_with(wall.spec(), owner);
+    return only < 0 ? 0 : output.of_mesh(wall, only, d);
   }
   Real sum = 0;
-  for (const MeshPart &m : wall.meshes()) sum += row.of_mesh(wall, m.index, column);
+  for (const MeshPart &m : wall.meshes()) sum += output.of_mesh(wall, m.index, d);
   return sum;
+}
+
+Real output_of(Wall &wall, int mesh, int column)
+{
+  const WallOutput *output = wall_outputs().data();
+  for (; column >= output->row.n; output++) column -= output->row.n;
+  return output_value(wall, mesh, *output, column);
+}
+
+// Returns the row of the number that has a name, and its place there; null: there is none.
+static const WallOutput *find_output(const std::string &name, int &d)
+{
+  for (const WallOutput &output : wall_outputs())
+    for (d = 0; d < output.row.n; d++)
+      if (output_name(output.row, d) == name) return &output;
+  return nullptr;
+}
+
+bool is_output(const std::string &name)
+{
+  int d;
+  return find_output(name, d);
+}
+
+Real output_by_name(Wall &wall, int mesh, const std::string &name)
+{
+  int d;
+  const WallOutput *const output = find_output(name, d);
+  if (!output) throw InputError(why_no_output(wall.spec(), name));
+  return output_value(wall, mesh, *output, d);
+}
+
+std::vector<NamedElement> named_outputs(const WallSpec &wall)
+{
+  std::vector<NamedElement> all;
+  int column = 0;
+  for (const WallOutput &output : wall_outputs())
+    for (int d = 0; d < output.row.n; d++, column++) {
+      if (output.part == OutputPart::scalar)
+        all.push_back({output_name(output.row, d), NamedElement::kScalar});
+      else if (has(wall, output.part))
+        all.push_back({output_name(output.row, d), column});
+    }
+  return all;
+}
+
+std::string why_no_output(const WallSpec &wall, const std::string &name)
+{
+  int d;
+  const std::string none = "there is no number '" + name + "': ";
+  if (const WallOutput *const output = find_output(name, d))
+    return none + "the wall needs " + keyword_of(output->part) + " for it";
+  std::vector<std::string> names;
+  for (const NamedElement &one : named_outputs(wall)) names.push_back(one.name);
+  return none + nearest_or_all(name, names);
 }
 
 }    // namespace lsdcd

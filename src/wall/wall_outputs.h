@@ -4,8 +4,10 @@
 // The numbers that a wall and each of its meshes have in a step, in the order of their columns.
 #pragma once
 
+#include "output/output_row.h"
 #include "wall/wall.h"
 
+#include <string>
 #include <vector>
 
 namespace lsdcd {
@@ -21,16 +23,17 @@ enum class OutputPart {
   motion,
   energy,
   impacts,
-  wear_energy
+  wear_energy,
+  scalar    // the fix's scalar, which is no column
 };
 
+// Returns the keyword that gives a wall a part, as the manual writes it; empty: every wall has it.
+const char *keyword_of(OutputPart part);
+
 struct WallOutput {
-  int n;    // columns
-  // The member of the library's lsdcd_wall_totals; of a body, of lsdcd_body_state; of a motion, what lsdcd_wall_get_pose() tells.
-  const char *name;
-  const char *text;    // what they are, for the manual (doc/wall_output.rst)
-  const char *unit;    // the kind of unit; empty: none
-  bool adds_up;        // with the size of a system
+  // Its name is that of the member of the library's lsdcd_wall_totals; of a body, with "body_" before it, of lsdcd_body_state.
+  OutputRow row;
+  bool adds_up;    // with the size of a system
   OutputPart part;
   Real (*of_mesh)(Wall &wall, int mesh, int d);    // column d of n; collective
   // Of all meshes together. Null: that of the only mesh that has a servo, body or motion, and of other parts the sum over
@@ -38,13 +41,21 @@ struct WallOutput {
   Real (*of_all)(Wall &wall, int d);
 };
 
-// The rows. Their columns follow each other from 0.
+// The rows. Their columns follow each other from 0; that of the scalar comes last.
 const std::vector<WallOutput> &wall_outputs();
 // Returns how many columns this wall has: up to the last one of a part that it has.
 int n_outputs(const WallSpec &wall);
 
-// Return a column of one mesh, and of all together. Collective.
-Real output_of_mesh(Wall &wall, int mesh, int column);
-Real output_of_wall(Wall &wall, int column);
+// Return a number of a mesh, counted from 0, or with -1 of all together: number d of a row, and that of a column. 0 where it is of a part
+// that the wall does not have. Collective.
+Real output_value(Wall &wall, int mesh, const WallOutput &output, int d);
+Real output_of(Wall &wall, int mesh, int column);
+// Returns likewise the number of a name. Throws InputError where no number is called so. Collective.
+Real output_by_name(Wall &wall, int mesh, const std::string &name);
+bool is_output(const std::string &name);
+// Returns the numbers that this wall has, in the order of their columns, with the scalar as column -1.
+std::vector<NamedElement> named_outputs(const WallSpec &wall);
+// Returns why a wall has no number of this name: the keyword that it needs, or that there is none, with the nearest name.
+std::string why_no_output(const WallSpec &wall, const std::string &name);
 
 }    // namespace lsdcd

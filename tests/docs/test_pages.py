@@ -463,8 +463,10 @@ def script_of(block, folder, known):
     """Of single lines."""
     text = re.sub(r"&\s*\n\s*", " ", block.text)
     lines, fixes, computes = block.before + [""], set(), set()
+    named = tuple(f"{prefix}_" for prefix in re.findall(r"\bnames (\w+)", text))    # variables that a fix or compute makes
     for name in sorted(set(re.findall(r"\bv_(\w+)", text)) - set(re.findall(r"variable +(\w+)", text))):
-        lines.append(f"variable {name} equal 0.1")
+        if not name.startswith(named):
+            lines.append(f"variable {name} equal 0.1")
     text = [line.split("#")[0].strip() for line in text.split("\n")]
     for line in filter(None, text):
         words = line.split()
@@ -472,9 +474,9 @@ def script_of(block, folder, known):
             line = f"{FIX} {line}"
             words = line.split()
         uses = "w" not in fixes and (words[:2] == ["fix_modify", "w"] or re.search(r"\b[fF]_w\b", line))
-        if uses or words[:2] == ["fix_modify", "w"]:    # each with as many meshes as it names
-            second = " mesh lid.stl scale 0.9" + " body density 1000 joint slider 0 0 1" * (" body " in line)
-            lines += ["unfix w"] * ("w" in fixes) + [with_meshes(FIX + second * ("mesh 2" in line), folder)]
+        if uses or (words[:2] == ["fix_modify", "w"] and not ("names" in words and "w" in fixes)):    # each with as many meshes as it names
+            second = " mesh lid.stl name lid scale 0.9" + " body density 1000 joint slider 0 0 1" * (" body " in line)
+            lines += ["unfix w"] * ("w" in fixes) + [with_meshes(FIX + second * ("mesh 2" in line or "mesh lid" in line), folder)]
             fixes.add("w")
         if words[0] == "fix":
             lines += [f"unfix {words[1]}"] * (words[1] in fixes)

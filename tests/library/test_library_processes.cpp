@@ -102,8 +102,8 @@ TEST_F(processes, feed_a_servo_with_the_forces_of_all)
     mine.step(wall, 50);
     // A sum of two numbers, in either order: the same bits.
     const lsdcd_wall_totals both = wall.totals(0);
-    EXPECT_EQ(both.servo[0], one.servo[0]);
-    EXPECT_NE(one.servo[0], 0);
+    EXPECT_EQ(both.servo_position, one.servo_position);
+    EXPECT_NE(one.servo_position, 0);
     EXPECT_EQ(both.force[2], one.force[2]);
     EXPECT_EQ(both.contacts, 2);
   });

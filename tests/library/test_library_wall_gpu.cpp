@@ -204,7 +204,8 @@ TEST_F(wall_gpu, gives_arrays_on_a_device_the_forces_of_arrays_of_the_host)
       for (int c = 0; c < 3; c++) EXPECT_NEAR(a.force[c], b.force[c], kSpheres * 1e-15 * size);
       contacts += b.contacts;
     }
-    EXPECT_NEAR(device.totals().worn, host.totals().worn, 1e-12 * host.totals().worn);
+    EXPECT_NEAR(device.totals().worn_volume, host.totals().worn_volume,
+                1e-12 * host.totals().worn_volume);
     EXPECT_GT(contacts, kSteps) << text;
   }
 }
@@ -415,10 +416,11 @@ TEST_F(wall_gpu, wear_moves_a_mesh_on_a_device_as_on_the_host)
     there = beside = here;
   }
   const lsdcd_wall_totals wanted = host.totals();
-  EXPECT_GT(wanted.removed, 1e-6);
+  EXPECT_GT(wanted.removed_volume, 1e-6);
   const std::vector<double> at = host.nodes(0);
   for (lsdcd::Wall *wall : {&device, &copies}) {
-    EXPECT_NEAR(wall->totals().removed, wanted.removed, 1e-12 * wanted.removed);
+    EXPECT_NEAR(wall->totals().removed_volume, wanted.removed_volume,
+                1e-12 * wanted.removed_volume);
     const std::vector<double> now = wall->nodes(0);
     for (std::size_t i = 0; i < at.size(); i++) EXPECT_NEAR(now[i], at[i], 1e-14);
   }

@@ -325,8 +325,8 @@ TEST_F(wall_spec, writes_the_files_of_words)
     EXPECT_EQ(bytes_of(names[1]), bytes_of(names[0])) << names[0];
     for (int k = 0; k < 2; k++) std::remove(names[k].c_str());
   }
-  EXPECT_GT(by_spec.totals(0).worn, 0);
-  EXPECT_EQ(by_spec.totals(0).worn, by_words.worn(0));
+  EXPECT_GT(by_spec.totals(0).worn_volume, 0);
+  EXPECT_EQ(by_spec.totals(0).worn_volume, by_words.worn(0));
 }
 
 TEST_F(wall_spec, means_are_those_of_the_steps)
@@ -463,8 +463,8 @@ TEST_F(wall_spec, wear_moves_the_mesh_as_by_words)
   Pile().go(by_spec, 13);
   EXPECT_EQ(bytes_of(stl[1]), bytes_of(stl[0]));
   for (const std::string &name : stl) std::remove(name.c_str());
-  EXPECT_GT(by_spec.totals(0).removed, 0);
-  EXPECT_EQ(by_spec.totals(0).removed, by_words.removed(0));
+  EXPECT_GT(by_spec.totals(0).removed_volume, 0);
+  EXPECT_EQ(by_spec.totals(0).removed_volume, by_words.removed(0));
   EXPECT_NE(by_spec.nodes(0), flat);
 }
 
@@ -477,17 +477,17 @@ TEST_F(wall_spec, the_worn_volume_is_between_the_old_vertices_and_the_new)
   Grains grains = slider();
   grains.step(wall, 1, true);
   grains.step(wall, 3);
-  const double worn = wall.totals(0).worn;
+  const double worn = wall.totals(0).worn_volume;
   EXPECT_GT(worn, 0);
-  EXPECT_EQ(wall.totals(0).removed, 0);
+  EXPECT_EQ(wall.totals(0).removed_volume, 0);
   grains.step(wall, 1);
   const api::MeshArrays of = mesh_->arrays();
   const std::vector<double> at = wall.nodes(0);
   double between = 0;
   for (std::size_t k = 2; k < at.size(); k += 3) between -= 200. / 3 * at[k];    // of each corner
   EXPECT_NEAR(between, 3 * worn, 1e-12 * worn);
-  EXPECT_NEAR(wall.totals(0).removed, 3 * worn, 1e-12 * worn);
-  EXPECT_EQ(wall.totals(0).held_back, 0);
+  EXPECT_NEAR(wall.totals(0).removed_volume, 3 * worn, 1e-12 * worn);
+  EXPECT_EQ(wall.totals(0).held_back_volume, 0);
   for (std::size_t k = 0; k < at.size(); k += 3) {
     const std::size_t vertex = 3 * of.welded_vertex[k / 3];
     const double x = of.vertices[vertex], y = of.vertices[vertex + 1], depth = 3 * worn / 200;

@@ -629,14 +629,14 @@ def test_wall_specs():
 
     wears = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "liner")], wear=("archard", 1e-3, 1), wear_deform=(3, 2)))
     forces(wears, 2)
-    worn = wears.totals().worn
+    worn = wears.totals().worn_volume
     forces(wears, 1)
     total, sunk = wears.totals(), wears.nodes(0) - square
     # Both triangles have the area 50: the volume between is that times the mean of their corners.
     between = -50 / 3 * sum(sunk[[0, 1, 2, 0, 2, 3], 2])
-    fact("wear moves the vertices by the factor times what has worn", worn > 0 and total.held_back == 0 and
-         abs(total.removed - 2 * worn) < 1e-12 * worn and abs(between - 2 * worn) < 1e-11 * worn and not sunk[:, :2].any(),
-         (worn, total.removed, between))
+    fact("wear moves the vertices by the factor times what has worn", worn > 0 and total.held_back_volume == 0 and
+         abs(total.removed_volume - 2 * worn) < 1e-12 * worn and abs(between - 2 * worn) < 1e-11 * worn and not sunk[:, :2].any(),
+         (worn, total.removed_volume, between))
 
     for says, call, kind in (
             ("is zero or not finite", lambda: lsdcd.Placement().scale(0), lsdcd.Error),

@@ -138,7 +138,7 @@ MORE_CHANGES = (
     ("set_servo: of a mesh at rest", "floor", lambda w: w.set_servo(0, servo()["servo"]), False),
     ("set_body: limits that do not hold 0", "slider", lambda w: w.set_body(0, body(limits=(-3, -1e-6))["body"]), False))
 # Others are no change of what a wall is made of.
-NO_CHANGES = {"from_spec", "free", "step_spheres", "renumber", "pack", "unpack", "get_totals", "get_pose", "get_node_count", "get_nodes",
+NO_CHANGES = {"from_spec", "free", "step_spheres", "renumber", "pack", "unpack", "get_totals", "get_outputs", "get_pose", "get_node_count", "get_nodes",
               "get_node_forces", "get_contacts", "get_impacts", "get_body", "save", "restore", "restore_what_fits"}
 
 

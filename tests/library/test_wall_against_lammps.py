@@ -82,24 +82,24 @@ def forces_by_library(spec):
     return np.hstack([force, torque])
 
 
-def forces_by_lammps(lmp, folder, walls):
-    """Of each wall of these words, in one run of the program."""
+def write_floor(folder):
     with open(os.path.join(folder, "floor.stl"), "w", encoding="ascii") as f:
         f.write("solid floor\n")
         for face in ([0, 1, 2], [0, 2, 3]):
             f.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % tuple(SQUARE[k]) for k in face) +
                     "endloop\nendfacet\n")
         f.write("endsolid floor\n")
-    atoms = "".join(f"create_atoms {k + 1} single {' '.join(map(repr, x.tolist()))} units box\n"
-                    for k, x in enumerate(X))
-    run(lmp, folder, "".join(f"""clear
+
+
+BEGIN = """clear
 units si
 atom_style sphere
 atom_modify map yes sort 0 0
 boundary f f f
 region box block -10 10 -10 10 -10 10
 create_box 2 box
-{atoms}set group all diameter 1
+""" + "".join(f"create_atoms {k + 1} single {' '.join(map(repr, x.tolist()))} units box\n" for k, x in enumerate(X)) + f"""\
+set group all diameter 1
 set group all mass 1
 set group all omega {' '.join(map(str, OMEGA[0]))}
 velocity all set {' '.join(map(str, V[0]))}
@@ -107,6 +107,13 @@ pair_style zero 1.1
 pair_coeff * *
 comm_modify vel yes
 timestep 1e-3
+"""
+
+
+def forces_by_lammps(lmp, folder, walls):
+    """Of each wall of these words, in one run of the program."""
+    write_floor(folder)
+    run(lmp, folder, "".join(f"""{BEGIN}\
 fix wall all wall/lsdcd {words} device cpu
 run {TOUCHES}
 write_dump all custom {k}.dump id fx fy fz tqx tqy tqz modify sort id format float %.17g
@@ -119,3 +126,44 @@ def test_bits_of_a_script(folder):
     for name, spec, wanted in zip(names, made, forces_by_lammps(LMP, str(folder), walls)):
         found = forces_by_library(spec)
         fact(f"{name}: the bits of the script", (found == wanted).all() and wanted[:, 2].any(), found - wanted)
+
+
+# Keywords that the wall of test_numbers_by_name() does not have.
+WITHOUT = ("body_", "removed_", "held_back_", "couple_", "lost_wear")
+
+
+def test_numbers_by_name(folder):
+    """Each number that a wall has is the same in a script and in the library, by its name, of the wall and of one of its meshes."""
+    names = [name for name in lsdcd.OUTPUTS if not name.startswith(WITHOUT)]
+    law = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=20, xmu=0.5, dampflag=1)
+    mesh, up = lsdcd.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]]), lsdcd.Placement().move(0, 0, 0.95)
+    wall = lsdcd.Wall(lsdcd.WallSpec(law, [
+        lsdcd.WallMesh(mesh, "floor", motions=[lsdcd.Motion.rotate((0, 0, 0), (0, 0, 1), 3)]),
+        lsdcd.WallMesh(mesh, "lid", placement=up, servo=lsdcd.Servo((0, 0, 1), -5, 0.5))],
+        wear=("archard", 1e-3, 1e3), energy=True, impact_speed=1e-3, average=2))
+    force, torque = np.zeros((2, 3)), np.zeros((2, 3))
+    for k in range(TOUCHES + 1):
+        wall.step(X, V, OMEGA, np.full(2, 0.5), np.ones(2), force, torque, 1e-3, setup=k == 0)
+    write_floor(folder)
+    of_lid = [name for name in names if name != "elastic_energy"]
+    columns = " ".join([f"v_w_{name}" for name in names] + [f"v_lid_{name}" for name in of_lid])
+    run(LMP, folder, BEGIN + f"""\
+fix w all wall/lsdcd hooke/history 1000 300 20 NULL 0.5 1 mesh floor.stl name floor motion rotate 0 0 0 0 0 1 3 mesh floor.stl name lid &
+    move 0 0 0.95 servo force z -5 vmax 0.5 wear archard 1e-3 1e3 energy impacts 1e-3 average 2 device cpu
+fix_modify w names w all
+fix_modify w mesh lid names lid all
+log numbers.log
+thermo_style custom step {columns}
+thermo_modify format float %.17g norm no
+run {TOUCHES}
+""")
+    with open(os.path.join(folder, "numbers.log"), encoding="utf-8") as f:
+        rows = [line.split() for line in f if line.split()[:1] == [str(TOUCHES)]]
+    wanted = [float(word) for word in rows[-1][1:]]
+    given, of_mesh = wall.outputs(" ".join(names)), wall.outputs(" ".join(of_lid), "lid")
+    found = [given[name] for name in names] + [of_mesh[name] for name in of_lid]
+    fact("the same numbers", len(wanted) == len(found) > 80 and wanted == found, [
+        (name, a, b) for name, a, b in zip(columns.split(), wanted, found) if a != b])
+    fact("of which many are not 0", sum(x != 0 for x in found) > 40, found)
+    with pytest.raises(lsdcd.Error, match="there is no number 'forse_z': the nearest is 'force_z'"):
+        wall.outputs("power forse_z")

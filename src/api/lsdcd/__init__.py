@@ -48,6 +48,22 @@ from ._spec import (Law as Law, Motion as Motion, Placement as Placement, RigidB
 from ._spec import _motion_array
 
 __version__: str = _lib.lsdcd_version().decode()
+
+
+def _all_outputs() -> dict[str, tuple[str, str]]:
+    found: dict[str, tuple[str, str]] = {}
+    name, unit, text = ctypes.c_char_p(), ctypes.c_char_p(), ctypes.c_char_p()
+    while _lib.lsdcd_output_info(len(found), ctypes.byref(name), ctypes.byref(unit), ctypes.byref(text)) == 0:
+        found[_text_of(name)] = _text_of(unit), _text_of(text)
+    return found
+
+
+def _text_of(value: ctypes.c_char_p) -> str:
+    return (value.value or b"").decode()
+
+
+# The numbers that Wall.outputs() may give: the kind of unit, and what they are.
+OUTPUTS: dict[str, tuple[str, str]] = _all_outputs()
 FOUND, CERTIFIED, SIDE_ESTIMATED = 1, 2, 4
 NONE = 0xffffffff
 # What a query answers: how many dimensions beyond the points', and the type, None: that of the points.
@@ -608,25 +624,27 @@ class WallTotals(_Record):
     contacts: float
     overlap: float        # the largest, of the radius or least half-axis
     uncertified: float    # spheres whose answer is not certified; see `nearest`
+    worn_volume: float    # so far
     power: float          # of the mesh on the spheres, by its motion; of nodes by velocities of half a step before
-    energy: float         # elastic
-    worn: float           # volume so far
-    servo: NDArray[np.float64]    # (3,) position, velocity, push; 0 without a servo
-    removed: float        # volume by which wear has moved the mesh, see `wear_deform`
-    held_back: float      # likewise, worn at vertices that stay
+    servo_position: float    # 0 without a servo, as the next two
+    servo_velocity: float
+    servo_push: float
+    removed_volume: float    # by which wear has moved the mesh, see `wear_deform`
+    held_back_volume: float  # likewise, worn at vertices that stay
     couple: NDArray[np.float64]    # (3,) on a mesh whose nodes you move, which no node gets: the torque is of their forces
     mean_force: NDArray[np.float64]     # (3,) over the steps of `average`
     mean_torque: NDArray[np.float64]    # (3,) likewise
     dissipated_power: NDArray[np.float64]    # (5,) of a wall with `energy`, in the step: damping, slider, rolling, twisting, adhesion
     dissipated: NDArray[np.float64]     # (5,) likewise energy since the first step
-    other_losses: NDArray[np.float64]   # (4,) by lever arms, stiffness, turned springs, inserted and deleted contacts
+    lost: NDArray[np.float64]           # (4,) by lever arms, stiffness, turned springs, inserted and deleted contacts
     contact_work: float   # of spheres and mesh on their contacts
     drive_work: float     # of the mesh on the spheres
-    held: float           # elastic
+    held_energy: float    # elastic, after the step
     remainder: float      # contact_work less all that is held or lost
     impacts: float        # number since the first step, of a wall with `impact_speed`
     impact_energy: float  # sum of m v^2/2, with the speed along the normal
-    wear_loss: float      # energy that contacts lose as wear moves the mesh, of a wall with `energy` and `wear_deform`
+    lost_wear: float      # energy that contacts lose as wear moves the mesh, of a wall with `energy` and `wear_deform`
+    elastic_energy: float    # of overlaps and tangential springs, by the forces of the step
 
 
 class WallContacts(_Record):
@@ -872,6 +890,14 @@ class Wall(_Owner):
                  ctypes.byref(totals))
         values = {name: getattr(totals, name) for name, _ in _WallTotals._fields_[1:]}
         return WallTotals(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
+
+    def outputs(self, names: str, mesh: int | str | None = None) -> dict[str, float]:
+        """Numbers of a mesh, from 0, or of all, after the last step by names apart by blanks, such as "force_z power", which are those of
+        LAMMPS's scripts and keys of OUTPUTS. Numbers of a part that the wall does not have are 0. Raises Error for other names."""
+        wanted = names.split()
+        numbers = np.empty(len(wanted))
+        self._do(_lib.lsdcd_wall_get_outputs, self._handle, self._mesh_or_all(mesh), names.encode(), numbers.ctypes.data, numbers.size)
+        return dict(zip(wanted, numbers.tolist()))
 
     def pose(self, mesh: int | str = 0) -> NDArray[np.float64]:
         """Where mesh number `mesh`, from 0, is after the last step, (3, 4): what was at x when the wall was made is at

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The numbers that styles give to scripts and programs: their names, units and meanings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// Numbers that stand one behind the other in an array of LAMMPS and have one meaning: those of a vector, or of several causes.
+struct OutputRow {
+  int n;    // numbers
+  const char
+      *name;    // of all of them; of one alone with an underscore and its component behind it
+  const char *components;    // n words apart by blanks; empty: the row is one number
+  const char *text;          // what they are, as the manual has it
+  const char *unit;          // the kind of unit; empty: none
+};
+
+// A number of a style, and where it stands.
+struct NamedElement {
+  std::string name;
+  int column;    // from 0
+  static constexpr int kScalar = -1;
+};
+
+// Returns the name of number d of a row, counted from 0: "force_x".
+std::string output_name(const OutputRow &row, int d);
+// Returns the numbers of some rows, which stand one behind the other. `with_scalar`: the last row is the scalar of the style.
+std::vector<NamedElement> named_elements(const std::vector<OutputRow> &rows, bool with_scalar);
+
+// The rows of the arrays of other styles than fix wall/lsdcd, in the order of their elements.
+const std::vector<OutputRow> &massflow_outputs();            // the vector of fix massflow/lsdcd
+const std::vector<OutputRow> &massflow_outputs_by_type();    // a row of its array
+const std::vector<OutputRow> &insertion_outputs();           // the vector of fix insert/lsdcd
+const std::vector<OutputRow> &
+energy_outputs();    // the vector of compute lsdcd/energy, and behind it its scalar
+const std::vector<OutputRow> &
+collide_outputs();    // the vector of compute lsdcd/collide, and behind it its scalar
+const std::vector<OutputRow> &collide_outputs_by_body();    // a row of its array
+const std::vector<OutputRow> &contact_outputs();    // a row of the per-atom array of fix wall/lsdcd
+const std::vector<OutputRow> &each_contact_outputs();    // a row of its local array
+
+}    // namespace lsdcd
