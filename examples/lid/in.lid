@@ -42,15 +42,18 @@ timestep        0.001
 # The lid slides along z. Its damper lowers it slowly, while the grains fall.
 fix             fall all gravity 1.0 vector 0 0 -1
 fix             move all nve/sphere
-fix             wall all wall/lsdcd ${law} mesh ${dir}/box.stl &
-                mesh ${dir}/lid.stl move 0 0 13 body density ${density} joint slider 0 0 1 spring 0 ${damper} &
+fix             wall all wall/lsdcd ${law} mesh ${dir}/box.stl name floor &
+                mesh ${dir}/lid.stl name lid move 0 0 13 body density ${density} joint slider 0 0 1 spring 0 ${damper} &
                 draw faces 3 log brief
+fix_modify      wall names wall body_coordinate overlap
+fix_modify      wall mesh lid names lid force_z
+fix_modify      wall mesh floor names floor force_z
 
 variable        lid equal 11.8*5.9*1.0*v_density        # its mass, and its weight
-variable        height equal 13.0+f_wall[34]            # of its lower face
-variable        borne equal f_wall[2][3]                # what the grains carry
-variable        floor equal f_wall[1][3]
-thermo_style    custom step atoms ke v_height v_borne v_floor f_wall[8]
+variable        height equal 13.0+v_wall_body_coordinate            # of its lower face
+variable        borne equal v_lid_force_z           # what the grains carry
+variable        floor equal v_floor_force_z
+thermo_style    custom step atoms ke v_height v_borne v_floor v_wall_overlap
 thermo_modify   norm no
 thermo          2000
 fix             curve all print 100 "$(time) $(v_height:%.6g) $(v_borne:%.6g)" file ${out} title "# time height borne" screen no

@@ -31,7 +31,7 @@ def outflow(text, dt):
     """Mass per time through the outlet in the second half of the drain, and seconds since it was opened: from, to."""
     lines = text.splitlines()
     head = next(k for k, line in enumerate(lines) if line.split()[:1] == ["Step"])
-    mass = lines[head].split().index("f_out[4]")
+    mass = lines[head].split().index("v_out_backward_mass")
     rows = []
     for line in lines[head + 1:]:
         words = line.split()
