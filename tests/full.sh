@@ -42,9 +42,9 @@ test_all() {
   run_ctest $folder "$@"
 }
 
-# Under sanitizers, each of which makes the compiler take twice as long and a test several times, other rooms than these are for a
+# Under sanitizers, each of which makes the compiler take twice as long and a test several times, other modules than these are for a
 # release.
-sanitized_rooms=(base shape rigid contact engine wall input)
+sanitized_modules=(base shape rigid contact engine wall input)
 
 # The tests of every day under sanitizers: random meshes stand for real ones, tests of the tool's commands one by one for
 # its examples in a row. Sampling tests take a tenth of their samples: the same code runs, and a sanitizer makes each
@@ -52,8 +52,8 @@ sanitized_rooms=(base shape rigid contact engine wall input)
 test_sanitized() {
   local targets=(quick) chosen=(-LE full -E '^tool[.](test_(tradeoff|commands)|format)$')
   if [ $whole = OFF ]; then
-    targets=("${sanitized_rooms[@]/%/_tests}")
-    chosen=(-LE full -L "^($(IFS='|'; echo "${sanitized_rooms[*]}"))\$")
+    targets=("${sanitized_modules[@]/%/_tests}")
+    chosen=(-LE full -L "^($(IFS='|'; echo "${sanitized_modules[*]}"))\$")
   fi
   say "sanitizers: configure and build"
   configure sanitize build/sanitize -D LSDCD_RELEASE="$whole" || { fail "configure with sanitizers"; return; }

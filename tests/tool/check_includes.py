@@ -2,23 +2,23 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Checks the house of src and kokkos: who includes whom, where files lie, and who knows the host.
+"""Checks the layout of src and kokkos: who includes whom, where files lie, and who knows the host.
 
 usage: check_includes.py [ROOT]
 
-* A file includes its own room and rooms on lower floors (FLOORS, from the lowest). Rooms of one
-  floor do not include each other.
-* Inside a room a file includes its own folder and lower ones (FOLDERS, from the lowest).
-* The words of scripts (INPUT_ROOM) are for the rooms INPUT_USERS.
-* The study is for STUDY_ROOMS, bench/ and tests: what it measures is no part of a plugin or the library.
-* Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name, and of MPI.
+* A file includes its own module and modules on lower layers (LAYERS, from the lowest). Modules of one
+  layer do not include each other.
+* Inside a module a file includes its own folder and lower ones (FOLDERS, from the lowest).
+* The words of scripts (INPUT_MODULE) are for the modules INPUT_USERS.
+* The study is for STUDY_MODULES, bench/ and tests: what it measures is no part of a plugin or the library.
+* Only LAMMPS_MODULES include headers of LAMMPS, which have no module in their name, and of MPI.
 * Outside of src/backend headers of CUDA's backend are for sources of nvcc (.cu), and what a GPU's blocks have (block.h) for files *_gpu.h.
 * A header of ONLY_IN, which is slow to compile, is included by its one file.
-* HOST_FREE_ROOMS name no host in texts: neither LAMMPS nor its commands (HOST_WORDS). A host has
+* HOST_FREE_MODULES name no host in texts: neither LAMMPS nor its commands (HOST_WORDS). A host has
   its words and remedies in messages by Host::names().
 * The lists of LAMMPS's Modify (MODIFY_LISTS), which LAMMPS 13Nov2026 does not have, are for MODIFY_READER; others ask its functions.
 * No file includes itself by way of others.
-* src itself has no source file: each lies in a room, and each room has a floor.
+* src itself has no source file: each lies in a module, and each module has a layer.
 * A source that only some builds of the core have is compiled alone (lsdcd_alone of src/CMakeLists.txt), so that the others are
   compiled together in the same way in all of them.
 
@@ -28,10 +28,10 @@ import os
 import re
 import sys
 
-FLOORS = [["base"], ["backend"], ["geometry", "shape"], ["mesh"], ["box"], ["host"], ["motion"], ["grid", "rigid", "tree"], ["contact"], ["law"], ["engine"],
+LAYERS = [["base"], ["backend"], ["geometry", "shape"], ["mesh"], ["box"], ["host"], ["motion"], ["grid", "rigid", "tree"], ["contact"], ["law"], ["engine"],
           ["bodies", "query", "effects", "output", "material", "flow", "insert"],
           ["pair", "study"], ["wall"], ["input"], ["lammps", "tool", "api"], ["kokkos"]]
-# Of each room with folders. "." stands for the files that lie in none, but for those that are named.
+# Of each module with folders. "." stands for the files that lie in none, but for those that are named.
 FOLDERS = {
     "mesh": [".", "io"],
     "grid": [".", "lookup", "plan", "build", "cache"],
@@ -40,21 +40,21 @@ FOLDERS = {
     "wall": ["spec", "spheres", "sums", "saved", "surface", "move", "part", "coat", "checks", "reports", "."],
     "lammps": [".", "launcher"],
 }
-INPUT_ROOM = "input"
+INPUT_MODULE = "input"
 INPUT_USERS = {"input", "lammps", "tool"}
-STUDY_ROOMS = {"study", "tool"}
-HOST_FREE_ROOMS = {"host", "wall", "engine"}
+STUDY_MODULES = {"study", "tool"}
+HOST_FREE_MODULES = {"host", "wall", "engine"}
 HOST_WORDS = re.compile(
     r"\b(lammps\w*|kokkos\w*|atoms?|fix(es)?|scripts?|skin|reruns?|dump(s|ed)?|thermo\w*|restart files?"
     r"|fix_\w+|\w+_modify|\w+_restart|reset_timestep|create_atoms|enforce2d|set group|nktv2p|ftm2v)\b", re.IGNORECASE)
-LAMMPS_ROOMS = {"lammps", "kokkos"}
+LAMMPS_MODULES = {"lammps", "kokkos"}
 GENERATED = {"grid": "lsdcd_grid_sources.h"}
 ONLY_IN = {"CLI/CLI.hpp": "src/tool/command.cpp"}
 MODIFY_READER = "src/lammps/host_fixes.h"
 MODIFY_LISTS = re.compile(r"\b(nfix|ncompute|fmask|find_(fix|compute)(_by_style)?)\b|\bmodify\s*(->|\.)\s*(fix|compute)\b")
 OF_CUDA = re.compile(r"backend/(backend_cuda|cuda_(?!available)\w+)\.h")
 
-FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
+LAYER = {module: layer for layer, modules in enumerate(LAYERS) for module in modules}
 SOURCE = re.compile(r"\.(h|cuh|cpp|cu)(\.in)?$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 TEXT = re.compile(r'"(?:[^"\\]|\\.)*"')
@@ -69,54 +69,54 @@ def sources(root):
                     yield os.path.relpath(os.path.join(folder, name), root)
 
 
-def room_of(path):
+def module_of(path):
     parts = path.split("/")
     return "kokkos" if parts[0] == "kokkos" else parts[1] if len(parts) > 2 else None
 
 
-def folder_of(room, path):
-    """The entry of FOLDERS[room] for one of its files."""
-    first, *rest = path.split(f"{room}/", 1)[1].split("/")
-    return first if rest or first in FOLDERS.get(room, []) else "."
+def folder_of(module, path):
+    """The entry of FOLDERS[module] for one of its files."""
+    first, *rest = path.split(f"{module}/", 1)[1].split("/")
+    return first if rest or first in FOLDERS.get(module, []) else "."
 
 
-def wrong_folder(room, path, included):
-    """Why a file of a room may not include another one of it; None: it may."""
-    order = FOLDERS.get(room, ["."])
-    here, there = folder_of(room, path), folder_of(room, included)
+def wrong_folder(module, path, included):
+    """Why a file of a module may not include another one of it; None: it may."""
+    order = FOLDERS.get(module, ["."])
+    here, there = folder_of(module, path), folder_of(module, included)
     if there in order and order.index(there) <= order.index(here):
         return None
     return f"lies in {there}, which is not below {here} in FOLDERS"
 
 
-def wrong_include(room, path, included):
-    """Why this file of `room` may not include that; None: it may."""
+def wrong_include(module, path, included):
+    """Why this file of `module` may not include that; None: it may."""
     if "/" not in included:
-        if room in LAMMPS_ROOMS or GENERATED.get(room) == included:
+        if module in LAMMPS_MODULES or GENERATED.get(module) == included:
             return None
-        return "has no room in its name"
+        return "has no module in its name"
     other = included.split("/")[0]
-    if other not in FLOOR:
-        return f"is of an unknown room {other}"
-    if other == "study" and room not in STUDY_ROOMS:
+    if other not in LAYER:
+        return f"is of an unknown module {other}"
+    if other == "study" and module not in STUDY_MODULES:
         return "lies in the study, which is for the tool, bench/ and tests"
-    if other == room:
-        return wrong_folder(room, path, included)
-    if FLOOR[other] < FLOOR[room]:
+    if other == module:
+        return wrong_folder(module, path, included)
+    if LAYER[other] < LAYER[module]:
         return None
-    return f"lies in a room {'beside' if FLOOR[other] == FLOOR[room] else 'above'} {room}"
+    return f"lies in a module {'beside' if LAYER[other] == LAYER[module] else 'above'} {module}"
 
 
-def wrong_input(room, path, included):
-    """Why this file may not include a header of INPUT_ROOM; None: it may, or it is none."""
-    if included.split("/")[0] != INPUT_ROOM or room in INPUT_USERS:
+def wrong_input(module, path, included):
+    """Why this file may not include a header of INPUT_MODULE; None: it may, or it is none."""
+    if included.split("/")[0] != INPUT_MODULE or module in INPUT_USERS:
         return None
     return "knows the words of scripts, which are for " + ", ".join(sorted(INPUT_USERS))
 
 
-def wrong_backend(room, path, included):
+def wrong_backend(module, path, included):
     """Why this file may not include a header of src/backend; None: it may, or it is none."""
-    if room == "backend":
+    if module == "backend":
         return None
     if OF_CUDA.fullmatch(included) and not path.endswith(".cu"):
         return "is of CUDA's backend, for sources that nvcc compiles"
@@ -139,7 +139,7 @@ def circles(root):
         state[path] = True
         with open(os.path.join(root, path), encoding="utf-8") as f:
             for include in filter(None, map(INCLUDE.match, f)):
-                # kokkos/ has no room in the names of its own headers.
+                # kokkos/ has no module in the names of its own headers.
                 for name in (include[1], f"{os.path.dirname(path)}/{include[1]}"):
                     if name in path_of:
                         yield from follow(path_of[name], way + [path])
@@ -171,28 +171,28 @@ def violations(root):
     for path in sources(root):
         with open(os.path.join(root, path), encoding="utf-8") as f:
             lines = f.read().splitlines()
-        room = room_of(path)
-        if room not in FLOOR:
-            yield f"{path}: lies in no room" if room is None else f"{path}: room {room} has no floor"
+        module = module_of(path)
+        if module not in LAYER:
+            yield f"{path}: lies in no module" if module is None else f"{path}: module {module} has no layer"
             continue
-        if folder_of(room, path) not in FOLDERS.get(room, ["."]):
+        if folder_of(module, path) not in FOLDERS.get(module, ["."]):
             yield f"{path}: its folder has no place in FOLDERS"
             continue
         for number, line in enumerate(lines, 1):
             include = INCLUDE.match(line)
-            why = include and (wrong_include(room, path, include[1]) or wrong_input(room, path, include[1])
-                               or wrong_backend(room, path, include[1]))
+            why = include and (wrong_include(module, path, include[1]) or wrong_input(module, path, include[1])
+                               or wrong_backend(module, path, include[1]))
             if why:
                 yield f"{path}:{number}: {include[1]} {why}"
-            word = room in HOST_FREE_ROOMS and not line.lstrip().startswith("#") and HOST_WORDS.search(" ".join(TEXT.findall(line)))
+            word = module in HOST_FREE_MODULES and not line.lstrip().startswith("#") and HOST_WORDS.search(" ".join(TEXT.findall(line)))
             if word:
-                yield f"{path}:{number}: '{word[0]}' is of a host, which {room} does not know"
-            lists = room in LAMMPS_ROOMS and path != MODIFY_READER and MODIFY_LISTS.search(line)
+                yield f"{path}:{number}: '{word[0]}' is of a host, which {module} does not know"
+            lists = module in LAMMPS_MODULES and path != MODIFY_READER and MODIFY_LISTS.search(line)
             if lists:
                 yield f"{path}:{number}: '{lists[0]}' is not in LAMMPS 13Nov2026: ask {MODIFY_READER}"
             system = SYSTEM_INCLUDE.match(line)
-            if system and system[1] == "mpi.h" and room not in LAMMPS_ROOMS:
-                yield f"{path}:{number}: mpi.h is for {', '.join(sorted(LAMMPS_ROOMS))} only"
+            if system and system[1] == "mpi.h" and module not in LAMMPS_MODULES:
+                yield f"{path}:{number}: mpi.h is for {', '.join(sorted(LAMMPS_MODULES))} only"
             if system and ONLY_IN.get(system[1], path) != path:
                 yield f"{path}:{number}: {system[1]} is for {ONLY_IN[system[1]]} only"
 
