@@ -220,7 +220,7 @@ void FixMassflowLsdcdKokkos::init()
 {
   FixMassflowLsdcd::init();
   if (std::strncmp(update->integrate_style, "respa", 5) == 0)
-    fatal("it looks at atoms in steps of run_style verlet only: use massflow/lsdcd/kk/host");
+    fatal("it checks atoms in steps of run_style verlet only: use massflow/lsdcd/kk/host");
 }
 
 void FixMassflowLsdcdKokkos::post_force(int /*vflag*/)

@@ -85,11 +85,11 @@ std::vector<EffectCase> effect_cases()
   add("wear finnie", "wear finnie", "loads of triangles",
       [](EngineSettings &s) { s.wear = WearModel::finnie; });
 
-  add("books of energy", "energy, compute lsdcd/energy", "tangential spring",
+  add("energy balance", "energy, compute lsdcd/energy", "tangential spring",
       [](EngineSettings &s) { s.law().keeps_forces = true; });
-  add("energy of triangles", "energy, mesh_fields", "books of energy",
+  add("energy of triangles", "energy, mesh_fields", "energy balance",
       [](EngineSettings &s) { s.energy_places = true; });
-  add("energy of contacts", "energy, each_contact", "books of energy",
+  add("energy of contacts", "energy, each_contact", "energy balance",
       [](EngineSettings &s) { s.law().keeps_losses = true; });
   add("impacts", "impacts", "tangential spring", [](EngineSettings &s) {
     s.law().keeps_touch = true;

@@ -61,8 +61,8 @@ std::vector<Effect> effects_of(const EngineSettings &s)
   if (s.contacts) effects.push_back({"loads of triangles", 0});
   if (s.law().keeps_forces)
     effects.push_back(
-        {"books of energy", (kKeptForces + (s.law().keeps_at_nodes ? kKeptAtNodes : 0)) *
-                                static_cast<int>(sizeof(Real))});
+        {"energy balance", (kKeptForces + (s.law().keeps_at_nodes ? kKeptAtNodes : 0)) *
+                               static_cast<int>(sizeof(Real))});
   if (s.energy_places) effects.push_back({"energy of triangles", 0});
   if (s.law().keeps_losses)
     effects.push_back({"energy of contacts", kKeptLosses * static_cast<int>(sizeof(Real))});

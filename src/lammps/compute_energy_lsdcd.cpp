@@ -87,8 +87,8 @@ const PairGranularLsdcd &ComputeEnergyLsdcd::pair() const
 {
   const auto *const found = dynamic_cast<const PairGranularLsdcd *>(force->pair);
   if (!found)
-    fatal("it books what pair_style granular/lsdcd does, which is not there or within a hybrid "
-          "style: of walls alone the keyword energy of fix wall/lsdcd does it");
+    fatal("it records the energy of pair_style granular/lsdcd, which is missing or within a hybrid "
+          "style: for walls alone use the keyword energy of fix wall/lsdcd");
   return *found;
 }
 
@@ -119,7 +119,7 @@ void ComputeEnergyLsdcd::init()
 void ComputeEnergyLsdcd::setup()
 {
   if (!watch.sees_snapshot(*update) || told_of_rerun) return;
-  warn("a rerun has no steps, and books nothing of contacts: only the kinetic and the potential "
+  warn("a rerun has no steps, and records nothing of contacts: only the kinetic and the potential "
        "energy are those of its snapshots");
   told_of_rerun = true;
 }

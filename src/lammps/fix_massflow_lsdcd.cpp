@@ -264,7 +264,7 @@ void FixMassflowLsdcd::lost_sight(std::int64_t id) const
   fatal_here("atom " + std::to_string(id) + " moved by more than the skin " +
              number_text(neighbor->skin) +
              " in one step, and whether it passed is not known: make the timestep "
-             "smaller or the skin larger (neighbor), or let the fix look at all atoms in every "
+             "smaller or the skin larger (neighbor), or let the fix check all atoms in every "
              "step by neigh_modify check no");
 }
 

@@ -298,7 +298,7 @@ void FixWallLsdcd::init()
   if (!rigid) std::vector<double>().swap(damping_mass);
   check_heat();
   if (spec().energy && std::strncmp(update->integrate_style, "respa", 5) == 0)
-    fatal("energy is booked with velocities that are the same in a whole step, which those of "
+    fatal("energy is recorded with velocities that are the same in a whole step, which those of "
           "run_style respa are not: use run_style verlet, or leave out energy");
   if (spec().has_bodies()) init_bodies();
   for (const int k : wall->inputs_read()) find_variable(spec().inputs[k]);
@@ -406,7 +406,7 @@ void FixWallLsdcd::post_run()
   const std::string advice =
       lsdcd::atoms_stay_close(*neighbor)
           ? ""
-          : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
+          : " (neigh_modify delay 0 every 1 check yes saves checking all atoms)";
   if (spheres_go_far()) need_positions();
   set_up_at = -1;
   wall->end_run(spheres(), spheres_go_far(), advice, timer->get_wall(Timer::TOTAL));

@@ -269,7 +269,7 @@ struct GranularModel {
                             const ContactMemory<kExtra> &memory, const FullForce &out) const
   {
     static_assert(kHistory && (kAll || kSet == GranularSet::either),
-                  "books of energy are of the laws with either friction");
+                  "the energy balance is of the laws with either friction");
     const Real a =
         uses_contact_radius || elastic.uses_contact_radius() ? elastic.contact_radius(c) : 0;
     Real pull = 0;

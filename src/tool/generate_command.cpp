@@ -246,7 +246,7 @@ void add_machines(Shapes &shapes)
     if (d.width == 0) d.width = d.radius / 20;
     if (d.lifters > 0) {
       need_less("--height", d.height, "--radius", d.radius);
-      need_less("--thickness", d.width, "the room that lifters leave each other at their tips",
+      need_less("--thickness", d.width, "the space that lifters leave each other at their tips",
                 2 * (d.radius - d.height) * std::tan(kPi / d.lifters));
       need_less("--thickness", d.width, "--radius", d.radius);
     }

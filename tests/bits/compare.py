@@ -43,7 +43,7 @@ EXAMPLES = {"flap": "", "paddle": "", "screen": "", "belt": "", "insertion": "",
             "sagging-belt": "fill 3000 measure 2000", "wheel": "steps 3000", "piston": ""}
 # Lines of a log that depend on time or place, and words of other lines.
 LEFT_OUT = re.compile(r"^(Per MPI rank memory|Performance:|[\d.]+% CPU use|Pair|Bond|Neigh|Comm|Output|Modify|Rest|Other|Total wall time|"
-                      r"  (Choice|Forces|Waiting|Grids|Files) *\||.*lsdcd(kk)?plugin|  version  )|^Fix \S+ wall/lsdcd: fix wall/gran of this")
+                      r"  (Search|Choice|Forces|Waiting|Grids|Files) *\||.*lsdcd(kk)?plugin|  version  )|^Fix \S+ wall/lsdcd: fix wall/gran of this")
 MASKED = ((r"^Loop time of \S+ on", "Loop time on"), (r"breakdown of the wall, \S+ %", "breakdown of the wall"),
           (r"CPU = [\d.e+-]+", "CPU"), (r"\b[\d.]+ (kB|MB), built in [\d.]+ s", "built"), (r"\bin \d+\.\d{3} s\b", ""),
           (r"\(\S*?([\w.]+\.(?:cpp|cu|h)):\d+\)", ""), (r"\.part-[\w-]+", ".part"))

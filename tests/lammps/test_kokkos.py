@@ -100,15 +100,15 @@ def test_lists(folder):
         if lmp.DEVICE_MOVES:
             fact(f"{name}: atoms move on the device", "switching to legacy" not in output)
         for form, said in (("plain", plain_output), ("kk", output)):
-            found = re.search(r": (\d+) steps and the setup: atoms near the wall chosen (\d+) times?(.*), "
+            found = re.search(r": (\d+) steps and the setup: atoms near the wall searched for (\d+) times?(.*), "
                               r"wall neighbor lists made (\d+) times?, (\S+) mesh features each", said)
-            steps, chosen, made = (int(found.group(k)) for k in (1, 2, 4))
+            steps, searched, made = (int(found.group(k)) for k in (1, 2, 4))
             fact(f"{name}, {form}: near atoms are kept from step to step",
-                 chosen < steps / 5, found.group(0))
+                searched < steps / 5, found.group(0))
             fact(f"{name}, {form}: and so are lists of the wall",
                  0 < made < steps * 100, found.group(0))
-            fact(f"{name}, {form}: the log says what would save looking at all atoms",
-                 ("check yes saves looking" in found.group(3)) == (text is rare),
+            fact(f"{name}, {form}: the log says what would save checking all atoms",
+                 ("check yes saves checking" in found.group(3)) == (text is rare),
                  found.group(0))
 
 

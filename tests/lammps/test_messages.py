@@ -132,7 +132,7 @@ SAID = {
     "and nothing where one is": (BOX + fix(law="granular hertz 1e6 0.5 tangential mindlin 1e6 1 0.3 damping velocity") + "run 0\n", ["is named"], 0),
     "words that say the default are taken without a word": (BOX + fix(DEFAULTS) + "run 0\n", ["WARNING"], 0),
     "a run has as many steps as were asked for": (
-        BOX + fix() + "run 1\nrun 4 pre no\n", ["Fix w wall/lsdcd: 1 step and the setup: atoms near the wall chosen 1 time, "
+        BOX + fix() + "run 1\nrun 4 pre no\n", ["Fix w wall/lsdcd: 1 step and the setup: atoms near the wall searched for 1 time, "
                                                 "wall neighbor lists made 1 time, 1.00 mesh features each"], 1),
     "and no setup where it had none": (BOX + fix() + "run 1\nrun 4 pre no\n", ["Fix w wall/lsdcd: 4 steps: atoms near"], 1),
     "log brief is one line": (BOX + fix("log brief nearest 3") + "run 4\n", ["wall/lsdcd:"], 1),
@@ -230,7 +230,7 @@ def test_times(folder):
     title, rows = table("", 10)
     fact("a run ends with the wall's times",
          len(title) == 1 and re.search(r"^Fix w wall/lsdcd: .*, [\d.]+ % of the loop time:$", title[0]) and
-         [row[0].strip() for row in rows if "Waiting" not in row[0]] == ["Choice", "Forces", "Grids", "Files"],
+         [row[0].strip() for row in rows if "Waiting" not in row[0]] == ["Search", "Forces", "Grids", "Files"],
          f"{title} {rows}")
     shares, of_loop = (sum(float(row[column]) for row in rows) for column in (5, 6))
     rounding = 0.005 * len(rows) + 1e-9

@@ -368,11 +368,11 @@ def test_minimization(folder):
 
 
 def test_rerun(folder):
-    """A rerun books nothing of contacts, and says so once."""
+    """A rerun records nothing of contacts, and says so once."""
     script = lmp.head("-3 3 -3 3 -3 3") + TWO.format(law="law hooke 1e3 NULL 5 NULL 0 0", dt=1e-4, b="0.98 0 0", move="fix move all nve/sphere", run="{run}")
     lmp.run_well(script.format(run="dump all all custom 50 snapshots id type x y z vx vy vz\ndump_modify all format float %.17g\nrun 200"), folder)
     told = lmp.run_well(script.format(run="rerun snapshots dump x y z vx vy vz\nrun 10"), folder)
-    fact("it is told once", told.count("a rerun has no steps, and books nothing of contacts") == 1)
+    fact("it is told once", told.count("a rerun has no steps, and records nothing of contacts") == 1)
     rerun, run = books(told)[-2:]
     at_most("no work in a rerun", abs(rerun["work"]) + abs(rerun["damping"]), 0)
     fact("work in the run behind it", run["damping"] > 0, str(run))

@@ -65,9 +65,9 @@ TEST(effects, have_bytes_that_add_up_to_those_of_a_contact)
   EngineSettings s;
   s.law() = *law_of_rows({sub_models(Family::style).front()});
   s.law().keeps_forces = true;
-  check(s, "books of energy");
+  check(s, "energy balance");
   s.law().keeps_at_nodes = true;
-  check(s, "books at nodes");
+  check(s, "energy balance at nodes");
   s.law().keeps_losses = true;
   check(s, "losses at nodes");
 }

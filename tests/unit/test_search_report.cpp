@@ -37,12 +37,12 @@ std::vector<std::string> logged_runs(const std::vector<int> &steps, const StepDi
 
 TEST(SearchReport, adds_up_what_all_processes_have_listed_and_searched)
 {
-  const std::string chosen = "spheres near the wall chosen 1 time (advice), ";
+  const std::string searched = "spheres near the wall searched for 1 time (advice), ";
   EXPECT_EQ(logged_runs({5}, lists(2, 3, 0)),
-            std::vector<std::string>{"5 steps and the setup: " + chosen +
+            std::vector<std::string>{"5 steps and the setup: " + searched +
                                      "wall neighbor lists made 6 times, 1.50 mesh features each"});
   EXPECT_EQ(logged_runs({1}, lists(0, 0, 4)),
-            std::vector<std::string>{"1 step and the setup: " + chosen +
+            std::vector<std::string>{"1 step and the setup: " + searched +
                                      "a grid cell searched instead 12 times"});
 }
 

@@ -56,7 +56,7 @@ TEST(TimeReport, has_least_average_and_most_of_the_processes)
             "timing breakdown of the wall, 50.00 % of the loop time:\n"
             "  Section |  min time  |  avg time  |  max time  |%varavg| %total| %loop\n"
             "  ----------------------------------------------------------------------\n"
-            "  Choice  | 1          | 2          | 3          |  50.0 | 20.00 | 10.00\n"
+            "  Search  | 1          | 2          | 3          |  50.0 | 20.00 | 10.00\n"
             "  Forces  | 4          | 8          | 12         |  50.0 | 80.00 | 40.00");
 }
 
@@ -66,7 +66,7 @@ TEST(TimeReport, has_no_share_of_a_loop_time_that_is_not_known)
             "timing breakdown of the wall:\n"
             "  Section |  min time  |  avg time  |  max time  |%varavg| %total\n"
             "  ---------------------------------------------------------------\n"
-            "  Choice  | 1          | 2          | 3          |  50.0 | 20.00\n"
+            "  Search  | 1          | 2          | 3          |  50.0 | 20.00\n"
             "  Forces  | 4          | 8          | 12         |  50.0 | 80.00");
 }
 
@@ -88,7 +88,7 @@ TEST(TimeReport, counts_from_the_end_of_one_section_to_that_of_the_next)
     report.end(TimeReport::forces);
     report.end_run(false, 0);
     ASSERT_EQ(host.lines.size(), 1);
-    EXPECT_TRUE(has(host.lines[0], "Choice  | 1          | 1 "));
+    EXPECT_TRUE(has(host.lines[0], "Search  | 1          | 1 "));
     EXPECT_TRUE(has(host.lines[0], "Forces  | 3          | 3 "));
   });
 }

@@ -28,8 +28,8 @@ void SearchReport::end_run(bool brief, const std::string &advice)
   host_.sum(sum, 3);
   if (steps_ + setups_ > 0 && !brief) {
     std::string t = counted(steps_, "step") + (setups_ > 0 ? " and the setup" : "") + ": " +
-                    host_.names().sphere + "s near the wall chosen " + counted(updates_, "time") +
-                    advice;
+                    host_.names().sphere + "s near the wall searched for " +
+                    counted(updates_, "time") + advice;
     if (sum[0] > 0) {
       char features[32];
       std::snprintf(features, sizeof features, "%.2f", sum[1] / sum[0]);

@@ -22,7 +22,7 @@ void TimeReport::begin_run()
 void TimeReport::end_run(bool brief, Real loop)
 {
   // No name is "Step", with which programs find the head of the table that a host logs.
-  static const char *const names[kSections] = {"Choice", "Forces", "Waiting", "Grids", "Files"};
+  static const char *const names[kSections] = {"Search", "Forces", "Waiting", "Grids", "Files"};
   // Averages of the sections, of all of them and of the loop; the last is the number of processes.
   Real mean[kSections + 3] = {}, most[kSections], least[kSections];
   Real &total = mean[kSections], &mean_loop = mean[kSections + 1], &n = mean[kSections + 2];

@@ -68,8 +68,8 @@ constexpr const char *kLogWords[] = {"full", "brief"};
           "N", "steps", "N >= 1", "off",                                                           \
           "means of force and torque over N steps, as more numbers of the vector")                 \
   SETTING(energy, energy, FlagSetting{}, compared, "energy", "", "", "", "off",                    \
-          "what contacts dissipate, by cause, and books of energy that close, as more numbers of " \
-          "the vector")                                                                            \
+          "what contacts dissipate, by cause, and an energy balance that closes, as more numbers " \
+          "of the vector")                                                                         \
   SETTING(friction_heat, friction_heat, ShareSetting{}, compared, "friction_heat", "F", "",        \
           "0 to 1", "0",                                                                           \
           "the share of the heat of friction that goes into the grains; with energy "              \

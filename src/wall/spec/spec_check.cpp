@@ -171,7 +171,7 @@ class SpecCheck {
              "wear should move the meshes, but nothing wears: leave that out, or give the wall a "
              "model of wear");
     if (wall_.friction_heat > 0 && !(wall_.energy && wall_.law().has_heat()))
-      refuse(kFrictionHeat, "the heat of friction comes from the books of energy, and goes where "
+      refuse(kFrictionHeat, "the heat of friction comes from the energy balance, and goes where "
                             "the law brings heat: give the wall "
                             "energy and the sub-model heat, too, or leave it out");
     if (wall_.shapes) check_shapes();
