@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// fix gravity/lsdcd/kk: LAMMPS's fix gravity on a Kokkos device. It computes the potential energy when something asks for it:
-// fix gravity/kk adds it up in each step, and makes the CPU wait for it.
+// fix gravity/lsdcd/kk: LAMMPS's fix gravity on a Kokkos device. It computes the potential energy only when something asks
+// for it; LAMMPS's gravity/kk adds it up in each step, so that the CPU has to wait.
 #ifndef LMP_FIX_GRAVITY_LSDCD_KOKKOS_H
 #define LMP_FIX_GRAVITY_LSDCD_KOKKOS_H
 
@@ -26,7 +26,7 @@ class FixGravityLsdcdKokkos : public FixGravity {
   void post_run() override;
   double compute_scalar() override;
 
-  // For lambdas of nvcc, which must not be in a private function.
+  // Public because nvcc takes no device lambda from a private function.
   void add_forces(double x, double y, double z);
   double own_energy() const;
 

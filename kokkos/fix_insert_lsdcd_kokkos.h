@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// fix insert/lsdcd/kk: the same where a Kokkos LAMMPS has its atoms, which it copies to the host and back in steps that insert.
+// fix insert/lsdcd/kk: the fix for a Kokkos LAMMPS. In steps that insert it copies all atoms to the host and back.
 #ifndef LMP_FIX_INSERT_LSDCD_KOKKOS_H
 #define LMP_FIX_INSERT_LSDCD_KOKKOS_H
 

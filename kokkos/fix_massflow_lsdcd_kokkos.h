@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// fix massflow/lsdcd/kk: the same where a Kokkos LAMMPS has its atoms. A kernel looks for atoms whose path comes near a triangle,
-// and writes them down; the CPU decides which of them have passed, when something asks for it.
+// fix massflow/lsdcd/kk: the fix for a Kokkos LAMMPS, on the device that has the atoms. A kernel records the atoms whose path
+// comes near a triangle; the CPU decides which of them have passed, when something asks for it.
 #ifndef LMP_FIX_MASSFLOW_LSDCD_KOKKOS_H
 #define LMP_FIX_MASSFLOW_LSDCD_KOKKOS_H
 
@@ -36,7 +36,7 @@ class FixMassflowLsdcdKokkos : public FixMassflowLsdcd, public KokkosBase {
                               ExecutionSpace) override;
   void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &) override;
 
-  // Kernels name these.
+  // Kernels use these names.
   using FixMassflowLsdcd::kToDelete;
   using DeviceSpace = LMPDeviceType;
 #if defined(KOKKOS_ENABLE_CUDA)
@@ -46,7 +46,7 @@ class FixMassflowLsdcdKokkos : public FixMassflowLsdcd, public KokkosBase {
   using SharedMemory = Kokkos::HostSpace;
 #endif
   static constexpr int kRow = 4;    // numbers of an atom in messages
-  // An atom that may have passed from where it was in the step before.
+  // An atom that may have passed the surface between its place in the last step and its present one.
   struct Candidate {
     double step, time;
     lsdcd::Vec3 from, x, v;
@@ -64,20 +64,20 @@ class FixMassflowLsdcdKokkos : public FixMassflowLsdcd, public KokkosBase {
   unsigned &flags_of(int) override;
 
  private:
-  // Of each atom: where it was when it was last looked at, and flags.
+  // For each atom: its place when it was last checked, and flags.
   using Places = Kokkos::DualView<double *[3], Kokkos::LayoutRight, DeviceSpace>;
   using Flags = Kokkos::DualView<unsigned *, DeviceSpace>;
   Places places;
   Flags flags;
 
-  Kokkos::View<lsdcd::Box *, DeviceSpace> things, around;    // of the surface's tree
+  Kokkos::View<lsdcd::Box *, DeviceSpace> things, around;    // boxes of the surface's tree
   std::optional<lsdcd::FlowBoxes> boxes;
   Kokkos::View<int *, DeviceSpace> near;
   int n_near = 0;
-  Kokkos::View<int[2], DeviceSpace> counts;    // near atoms, and candidates
+  Kokkos::View<int[2], DeviceSpace> counts;    // atoms near the surface, and candidates
   Kokkos::View<Candidate *, SharedMemory> found;
-  int most_found = 0;         // since they were counted
-  bool may_delete = false;    // some atom of this process
+  int most_found = 0;         // the most candidates since they were counted
+  bool may_delete = false;    // may this process have to delete an atom?
 
   void on_host();
   void change_on_host();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// fix SPRINGS/LSDCD/KK: what pairs of granular/lsdcd/kk keep stays where a Kokkos LAMMPS has its atoms. The partners of the plain fix are
-// filled for restart files, and where LAMMPS moves atoms on the host.
+// fix SPRINGS/LSDCD/KK: stores what pairs of granular/lsdcd/kk keep where a Kokkos LAMMPS has its atoms. The partners of the plain fix
+// are filled only for restart files, and where LAMMPS moves atoms on the host.
 #ifndef LMP_FIX_SPRINGS_LSDCD_KOKKOS_H
 #define LMP_FIX_SPRINGS_LSDCD_KOKKOS_H
 
@@ -42,20 +42,20 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
 
  private:
   friend class PairGranularLsdcdKokkos<DeviceType>;
-  // As that of the plain fix.
+  // Does the same as begin_step() of the plain fix.
   void begin_step(const lsdcd::PairRows &list, bool types_changed, bool newton);
-  // Returns what the pair keeps as i sees it; empty: it does not touch.
+  // Returns what the pair keeps, with signs as atom i sees it; empty: the pair does not touch.
   std::vector<double> numbers_of(int i, int j);
 
   lsdcd::ListedGrains grains();
   void need_on_device(int n_atoms);
 
   class AtomKokkos *atomKK;
-  lsdcd::PairEngine *engine = nullptr;    // of the pair style, which is there as long as this is
+  lsdcd::PairEngine *engine = nullptr;    // of the pair style, which exists as long as this fix
   lsdcd::PairRows rows;                   // of the last step
-  bool ghosts_too = false;                // what is kept belongs to ghost atoms, too
+  bool ghosts_too = false;                // numbers are kept for ghost atoms, too
   bool on_device = false;                 // the engine has the partners; else the plain fix has
-  bool shown = false;                     // partners are those of the pairs of the last step
+  bool shown = false;                     // the partners are those of the pairs of the last step
 };
 
 }    // namespace LAMMPS_NS

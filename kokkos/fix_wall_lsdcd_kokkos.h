@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// fix wall/lsdcd/kk: the same wall where a Kokkos LAMMPS has its particles.
+// fix wall/lsdcd/kk: the wall for a Kokkos LAMMPS, on the device that has the particles.
 #ifndef LMP_FIX_WALL_LSDCD_KOKKOS_H
 #define LMP_FIX_WALL_LSDCD_KOKKOS_H
 
@@ -67,11 +67,12 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void put_forces(To &);
 
   Kokkos::View<double *, DeviceType> d_damping_mass;
-  // Where fixes before this one only add forces, they are added right behind those between atoms.
+  // When the wall does its step. If the fixes before this one only add forces, its forces are added
+  // right after those between atoms.
   lsdcd::When when = lsdcd::When::beside;
   lsdcd::VariableAtoms atoms_of_inputs;
-  std::set<std::string> inputs_told;    // in the log
-  // Where atoms are in float:
+  std::set<std::string> inputs_told;    // inputs that the log has named
+  // The arrays of spheres if atoms are in float:
   lsdcd::FloatSpheres float_spheres;
   bool rounding_logged = false, rounding_warned = false;
 };

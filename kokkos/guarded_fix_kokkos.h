@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Fixes with data of atoms on the device as LAMMPS makes them: see lammps/guarded_styles.h.
+// Fixes that keep data of atoms on the device, as LAMMPS makes them: see lammps/guarded_styles.h.
 #ifndef LMP_GUARDED_FIX_KOKKOS_H
 #define LMP_GUARDED_FIX_KOKKOS_H
 
@@ -13,8 +13,8 @@
 
 namespace LAMMPS_NS {
 
-// A fix without data of atoms on the device. Restart files keep what it has under the name of its style: that is the same for all forms,
-// so that each takes up that of the other.
+// A fix without data of atoms on the device. Restart files store its data under the name of its style, which is the same for all forms
+// of the fix, so that each form can continue from the data of another one.
 template <class Style>
 class GuardedFixOnHost : public GuardedFix<Style> {
  public:
@@ -41,7 +41,7 @@ class GuardedFixKokkos : public GuardedFixOnHost<Style> {
     lsdcd::leave_atoms_to_host(this->lmp);
   }
 
-  // On one process, whatever the others do.
+  // Packs the data of atoms that leave this process. It is called on one process, whatever the others do.
   int pack_exchange_kokkos(const int &n, lsdcd::ExchangeBuffer &buffer, DAT::tdual_int_1d which,
                            DAT::tdual_int_1d from, ExecutionSpace space) override
   {

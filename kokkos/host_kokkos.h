@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// The Kokkos of the host: what differs between LAMMPS of 2023, 2025 and 2026, and which of
-// our backends shares memory with a Kokkos device.
+// Kokkos as the host has it: what differs between LAMMPS of 2023, 2025 and 2026, and which of our backends shares memory with a Kokkos
+// device.
 #pragma once
 
 #include "atom_kokkos.h"
@@ -30,7 +30,7 @@
 
 namespace lsdcd {
 
-// LAMMPS packs and sorts data of fixes on the device, in a buffer whose type has had three names.
+// The type of the buffer in which LAMMPS packs and sorts data of fixes on the device. It has had three names.
 template <class>
 struct SecondArgument;
 template <class R, class C, class A, class B, class... More>
@@ -40,7 +40,7 @@ struct SecondArgument<R (C::*)(A, B, More...)> {
 using ExchangeBuffer =
     typename SecondArgument<decltype(&LAMMPS_NS::KokkosBase::pack_exchange_kokkos)>::type;
 
-// Packs atoms that leave, and moves others to their places; LAMMPS of 2026 has a list of bonus data, too.
+// Packs atoms that leave, and moves others to their places. LAMMPS of 2026 has a list of bonus data in addition.
 template <class Atoms, class List>
 void pack_exchange(Atoms &atoms, int n, ExchangeBuffer &buffer, List &leave, List &come,
                    LAMMPS_NS::ExecutionSpace space)
@@ -52,7 +52,7 @@ void pack_exchange(Atoms &atoms, int n, ExchangeBuffer &buffer, List &leave, Lis
     atoms.pack_exchange_kokkos(n, buffer, leave, come, space);
 }
 
-// A view of LAMMPS as rows, of whatever layout it is.
+// Returns a view of LAMMPS, of any layout, as rows.
 template <class View>
 auto rows_of(const View &view)
 {
@@ -67,7 +67,7 @@ constexpr bool kFloatAtoms = true;
 #else
 constexpr bool kFloatAtoms = false;
 #endif
-// And their forces? In mixed precision LAMMPS sums them in double.
+// Are their forces in float, too? In mixed precision LAMMPS sums them in double.
 #if defined(LMP_KOKKOS_SINGLE_SINGLE)
 constexpr bool kFloatForces = true;
 #else
@@ -79,17 +79,18 @@ constexpr bool kOnCpu =
     Kokkos::SpaceAccessibility<Kokkos::HostSpace,
                                typename DeviceType::execution_space::memory_space>::accessible;
 
-// Are LAMMPS's own arrays of atoms those in which Kokkos changes them? Else they are old until a sync(Host).
+// Does Kokkos change atoms in LAMMPS's own arrays? If not, these arrays are out of date until a sync(Host).
 constexpr bool kSharesAtoms = kOnCpu<LMPDeviceType> && !kFloatAtoms;
 
-// Do the atoms of a device live on a GPU while messages leave from the host?
+// Returns whether the atoms of a device are on a GPU while messages are sent from the host.
 template <class DeviceType>
 bool sends_from_host(LAMMPS_NS::ExecutionSpace space)
 {
   return !kOnCpu<DeviceType> && space != LAMMPS_NS::Device;
 }
 
-// Brings a device the places of atoms that came, which LAMMPS writes on the host without a word to Kokkos where messages come to it.
+// Copies to a device the places of atoms that have arrived. If messages arrive on the host, LAMMPS writes these places there and does not
+// mark them as modified for Kokkos.
 template <class DeviceType, class List>
 void bring_places(List &to, LAMMPS_NS::ExecutionSpace space)
 {
@@ -100,15 +101,15 @@ void bring_places(List &to, LAMMPS_NS::ExecutionSpace space)
   to.template sync<DeviceType>();
 }
 
-// Returns how many atoms there may be while n that have gone are packed, of which LAMMPS has taken nlocal already: it may have added
-// those that came.
+// Returns how many atoms may exist while n atoms that have left are packed. LAMMPS has already removed these from nlocal, and may have
+// added atoms that arrived.
 inline int most_in_exchange(const LAMMPS_NS::Atom &atom, int n)
 {
   return std::min(atom.nlocal + n, atom.nmax);
 }
 
-// Returns LAMMPS where it runs with Kokkos and the host has the atoms of `mask`, which the constructor of a fix without /kk
-// looks at.
+// Returns LAMMPS after a check that it runs with Kokkos, and copies to the host the data of atoms in `mask`, which the constructor of a fix
+// without /kk reads.
 inline LAMMPS_NS::LAMMPS *with_atoms_on_cpu(LAMMPS_NS::LAMMPS *lmp, const std::string &id,
                                             const std::string &style, std::uint64_t mask)
 {
@@ -120,7 +121,7 @@ inline LAMMPS_NS::LAMMPS *with_atoms_on_cpu(LAMMPS_NS::LAMMPS *lmp, const std::s
   return lmp;
 }
 
-// LAMMPS brings the fix no atom and takes none back: each place of it names what it reads and changes.
+// Tells LAMMPS to copy no atoms to or from the device for this fix. Each function of the fix names itself what it reads and changes.
 inline void bring_no_atoms(LAMMPS_NS::Fix &fix, LAMMPS_NS::ExecutionSpace space)
 {
   fix.kokkosable = 1;
@@ -128,7 +129,7 @@ inline void bring_no_atoms(LAMMPS_NS::Fix &fix, LAMMPS_NS::ExecutionSpace space)
   fix.datamask_read = fix.datamask_modify = EMPTY_MASK;
 }
 
-// Runs work while LAMMPS takes the atoms on the host for the newest ones, as around what knows nothing of Kokkos.
+// Runs work while LAMMPS regards the atoms on the host as the newest, as it does around code that does not know Kokkos.
 template <class Work>
 void with_atoms_of_host(LAMMPS_NS::LAMMPS *lmp, Work &&work)
 {
@@ -138,18 +139,18 @@ void with_atoms_of_host(LAMMPS_NS::LAMMPS *lmp, Work &&work)
   lmp->kokkos->auto_sync = before;
 }
 
-// Ends a run with all atoms on the host, as changed there, so that the next run takes from there what commands such as set and velocity
-// change without a word to Kokkos, also with "run ... pre no", which sets nothing up. A fix of LAMMPS with /kk that stands behind the caller,
-// as gravity/kk, may bring what it reads to the device once more; without a setup it is old there then.
+// Ends a run with all atoms on the host, marked as changed there. The next run then starts from what commands such as set and velocity
+// change without marking it for Kokkos, also with "run ... pre no", which does no setup. A LAMMPS fix with /kk that is defined after the
+// caller, such as gravity/kk, may copy what it reads to the device once more; without a setup that copy is then out of date.
 inline void leave_atoms_to_host(LAMMPS_NS::LAMMPS *lmp)
 {
   auto &atoms = *static_cast<LAMMPS_NS::AtomKokkos *>(lmp->atom);
-  atoms.sync(LAMMPS_NS::Host, ALL_MASK);    // a rerun has not brought them
+  atoms.sync(LAMMPS_NS::Host, ALL_MASK);    // a rerun has not copied them
   atoms.modified(LAMMPS_NS::Host, ALL_MASK);
 }
 
-// Brings a device atoms as commands between runs left them on the host: set and velocity change them there without a word to Kokkos.
-// LAMMPS does so itself all through a setup until it calls setup() of fixes.
+// Copies to a device the atoms as commands between runs have left them on the host: set and velocity change them there without marking them
+// for Kokkos. LAMMPS does the same itself during a setup until it calls setup() of fixes.
 inline void bring_after_commands(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::ExecutionSpace space,
                                  std::uint64_t mask)
 {
@@ -157,7 +158,7 @@ inline void bring_after_commands(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::ExecutionSpa
   with_atoms_of_host(lmp, [&] { atoms.sync(space, mask); });
 }
 
-// Runs work as LAMMPS runs fixes without /kk: all atoms go to the host before, and count as changed there after.
+// Runs work as LAMMPS runs fixes without /kk: copies all atoms to the host before, and marks them as changed there afterwards.
 template <class Work>
 void run_on_host(LAMMPS_NS::LAMMPS *lmp, Work &&work)
 {
@@ -167,7 +168,7 @@ void run_on_host(LAMMPS_NS::LAMMPS *lmp, Work &&work)
   atoms.modified(LAMMPS_NS::Host, ALL_MASK);
 }
 
-// Numbers of the CPU on a device, in memory that grows where it is too small.
+// Copies numbers of the CPU to memory of a device, which grows if it is too small.
 template <class DeviceType>
 void to_device(const std::vector<double> &from, Kokkos::View<double *, DeviceType> &to)
 {
@@ -179,7 +180,7 @@ void to_device(const std::vector<double> &from, Kokkos::View<double *, DeviceTyp
   Kokkos::deep_copy(Kokkos::subview(to, std::make_pair(std::size_t(0), n)), host);
 }
 
-// The first n numbers of a device on the CPU.
+// Copies the first n numbers of a device to the CPU.
 template <class DeviceType>
 void from_device(const Kokkos::View<double *, DeviceType> &from, std::size_t n,
                  std::vector<double> &to)
@@ -191,7 +192,7 @@ void from_device(const Kokkos::View<double *, DeviceType> &from, std::size_t n,
   Kokkos::deep_copy(host, Kokkos::subview(from, std::make_pair(std::size_t(0), n)));
 }
 
-// The engine whose memory is that of a Kokkos device.
+// Makes the engine whose memory is that of a Kokkos device.
 template <class DeviceType>
 std::unique_ptr<WallEngine> make_engine_on(EngineSettings settings)
 {
@@ -220,7 +221,7 @@ std::unique_ptr<WallEngine> make_engine_on(EngineSettings settings)
   }
 }
 
-// The engine of pairs whose memory is that of a Kokkos device.
+// Makes the engine of pairs whose memory is that of a Kokkos device.
 template <class DeviceType>
 std::unique_ptr<PairEngine> make_pair_engine_on()
 {

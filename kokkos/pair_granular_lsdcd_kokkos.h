@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// pair_style granular/lsdcd/kk: the same pairs where a Kokkos LAMMPS has its atoms. It lends pointers; src/pair does the work.
+// pair_style granular/lsdcd/kk: the pair style for a Kokkos LAMMPS, on the device that has the atoms. It only passes pointers;
+// src/pair does the work.
 #ifndef LMP_PAIR_GRANULAR_LSDCD_KOKKOS_H
 #define LMP_PAIR_GRANULAR_LSDCD_KOKKOS_H
 
@@ -40,14 +41,14 @@ class PairGranularLsdcdKokkos : public PairGranularLsdcd {
 
   class AtomKokkos *atomKK;
   std::unique_ptr<lsdcd::PairEngine> engine;
-  bool full = false;    // lists have each pair twice, and no force is added by two threads
+  bool full = false;    // lists have each pair twice, and no two threads add to one force
   Kokkos::View<double *, DeviceType>
-      d_masses;    // of atoms, or of the rigid bodies that they are of
+      d_masses;    // masses of atoms, or of the rigid bodies that they belong to
   Kokkos::View<double *, DeviceType> d_limits, d_listed;
   std::vector<double> of_grains;
 };
 
-// For scripts with granular and -sf kk, where LAMMPS has no granular/kk.
+// The style for scripts with granular and -sf kk, if LAMMPS has no granular/kk.
 template <class DeviceType>
 class PairAsGranularKokkos : public PairGranularLsdcdKokkos<DeviceType> {
  public:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Whether a variable of this LAMMPS reads atoms: see variable_formula.h.
+// Decides whether a variable of this LAMMPS reads atoms: see variable_formula.h.
 #ifndef LSDCD_VARIABLE_READS_H
 #define LSDCD_VARIABLE_READS_H
 
@@ -20,7 +20,8 @@
 
 namespace lsdcd {
 
-// Variables of other styles than equal may be anything, as may those that ask each other without an end.
+// Returns whether a variable may read atoms. True for variables of styles other than equal, and for those that refer to each other without
+// end.
 inline bool variable_reads_atoms(LAMMPS_NS::LAMMPS *lmp, const std::string &name, int depth = 0)
 {
   constexpr int kDeepest = 100;
@@ -37,13 +38,14 @@ inline bool variable_reads_atoms(LAMMPS_NS::LAMMPS *lmp, const std::string &name
       });
 }
 
-// Brings all atoms to LAMMPS's own arrays before variables that may read them are evaluated there, as LAMMPS's own fixes for Kokkos do for
-// all. A fix with /kk/host needs it, too: others change atoms on the device.
+// Copies all atoms to LAMMPS's own arrays before variables that may read them are evaluated there, as LAMMPS's own fixes for Kokkos do for
+// all variables. A fix with /kk/host needs it, too, because others change atoms on the device.
 class VariableAtoms {
  public:
-  // At the end of a run: commands behind it may change variables.
+  // Checks the variables again from now on. Called at the end of a run, because commands after it may change variables.
   void look_again() { is_known_ = false; }
-  // Before the variables of these names are evaluated. tell(name): of one that may read atoms which have to be brought.
+  // Copies all atoms to the host, if needed, before the variables with these names are evaluated. Calls tell(name) for each variable that
+  // may read atoms.
   template <class Tell>
   void bring(LAMMPS_NS::LAMMPS *lmp, const std::vector<std::string> &names, const Tell &tell)
   {

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// With `device automatic`: does a wall whose spheres are in the memory of the host compute on a GPU or on the CPU? A
-// GPU takes less time for a sphere and more for a step, so that it pays from some number of spheres near the wall on.
+// Decides, with `device automatic`, whether a wall whose spheres are in the memory of the host computes on a GPU or
+// on the CPU. A GPU takes less time for each sphere and more for each step, so it pays off only from a certain number
+// of spheres near the wall on.
 #pragma once
 
 #include "engine/engine.h"
@@ -14,14 +15,16 @@ namespace lsdcd {
 class DeviceChoice {
  public:
   DeviceChoice() = default;
-  // `gpus`: of this node, on which `processes` run. Without a GPU, or where a device was asked for, that one holds.
+  // `gpus`: GPUs of this node, on which `processes` run. If a device was asked for, that one is used; without a GPU
+  // the CPU is used.
   DeviceChoice(Device asked, int gpus, int processes);
 
   bool is_open() const { return least_ > 0; }
   Device device() const { return device_; }
   std::int64_t least_for_gpu() const { return least_; }    // spheres near the wall
 
-  // Decides by the most spheres near the wall that one process has. True where the device is another one from now on.
+  // Decides by `near`, the largest number of spheres near the wall on any process. Returns true if the device changes
+  // from now on.
   bool update(std::int64_t near);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a wall asks of its engine: as it is made, and in each step.
+// What a wall asks of its engine: the settings at its creation, and the settings of each step.
 #pragma once
 
 #include "wall/part/mesh_part.h"
@@ -12,23 +12,24 @@
 
 namespace lsdcd {
 
-// What the meshes of a wall ask of a step.
+// What the meshes of a wall need from a step.
 struct StepAsks {
-  bool pushed;      // mobilities: one of them is a body
+  bool pushed;      // mobilities, because one of the meshes is a body
   bool contacts;    // the contacts themselves
-  bool loads;       // these, for loads of features
+  bool loads;       // the contacts, for loads of features
   bool totals;      // sums, for the next step
 };
 
 class EngineInput {
  public:
-  // All must outlive it.
+  // Host, wall and laws must outlive this object.
   EngineInput(const Host &host, const WallSpec &wall, const LawTable &laws,
               const std::deque<MeshPart> &meshes, Real velocity_unit);
 
-  // Returns the settings of an engine on this device. `virial`: contacts will be asked for. `pushed`: a mesh is, or was, moved by its loads.
+  // Returns the settings of an engine on this device. `virial`: contacts will be asked for. `pushed`: a mesh is, or was, moved by its
+  // loads.
   EngineSettings settings(Device device, bool virial, bool pushed) const;
-  // Returns the settings of a step, which hold until the next call.
+  // Returns the settings of a step, which are valid until the next call.
   StepSettings step(const StepInput &input, const StepAsks &asks);
 
  private:
@@ -38,8 +39,8 @@ class EngineInput {
   const std::deque<MeshPart> &meshes_;
   Real velocity_unit_;    // see EngineSettings
   StepSettings of_all_steps_;
-  bool has_surfaces_ = false, has_heat_ = false;    // of meshes, which steps ask for
-  // Of each mesh in this step.
+  bool has_surfaces_ = false, has_heat_ = false;    // of meshes; steps ask for these
+  // The values of each mesh in this step.
   std::vector<SurfaceMotion> surfaces_;
   std::vector<Real> temperatures_;
   std::vector<Mobility> mobilities_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// When the grids of a wall's meshes are built: for the first spheres, for larger ones, for another box.
+// Builds the grids of a wall's meshes when they are needed: for the first spheres, for larger ones, for another box.
 #pragma once
 
 #include "wall/checks/box_checks.h"
@@ -17,10 +17,10 @@
 
 namespace lsdcd {
 
-// Errors are InputError, the same on all processes. All functions but those that are const are collective.
+// Errors are InputError, the same on all processes. All functions that are not const are collective.
 class GridManager {
  public:
-  // All must outlive it.
+  // All arguments must outlive this object.
   GridManager(Host &host, const WallSpec &settings, const LawTable &laws,
               std::deque<MeshPart> &meshes, BodyCoats &coats, BoxChecks &checks,
               HistoryExchange &history, TimeReport &times) :
@@ -34,28 +34,29 @@ class GridManager {
   {
     return meshes_.front().grid.cutoff();
   }    // length; 0: there were no spheres yet
-  // Returns the box of the simulation. Its margin is the farthest that spheres have gone past a periodic face.
+  // Returns the box of the simulation. Its margin is the farthest distance that spheres have gone past a periodic face.
   PeriodicBox box() const;
 
-  // The engine of the steps from now on; it gets the grids that there are.
+  // Sets the engine of all steps from now on, and gives it the grids that exist.
   void set_engine(WallEngine &engine);
 
-  // For spheres of up to this radius (length, 0: there are none) and for coats in the box of this step. Returns whether grids were built.
+  // Builds grids, if needed, for spheres of up to this radius (length, 0: there are none) and for coats in the box of this step. Returns
+  // whether grids were built.
   bool fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int64_t step);
-  // For the box of this step. Does nothing before there are spheres.
+  // Builds grids, if needed, for the box of this step. Does nothing before there are spheres.
   bool fit_box(std::int64_t step);
 
-  // The grid of a mesh whose vertices have moved. Does nothing before there are spheres.
+  // Makes the grid of a mesh follow its vertices, which have moved. Does nothing before there are spheres.
   void follow_surface(MeshPart &m);
 
-  // Looks how far spheres are past periodic faces, before they are wrapped. Where they went farther than
-  // the grid was made for, contacts may have been missed: warns, and the grid reaches that far from then on.
+  // Measures how far spheres are past periodic faces, before they are wrapped. If they went farther than the grid was made for, contacts
+  // may have been missed: then it warns, and the grid reaches that far from now on.
   void check_wrapping(const Spheres &spheres);
 
   // Logs how many grids were built for other boxes in this run, and counts from 0 again.
   void end_run();
 
-  // A feature that is no image: that of which `feature` is an image, or itself.
+  // Returns the feature of which `feature` is a periodic image, or `feature` itself if it is no image.
   FeatureCode without_image(int mesh, FeatureCode feature) const;
 
  private:
@@ -76,7 +77,7 @@ class GridManager {
   HistoryExchange &history_;
   TimeReport &times_;
   WallEngine *engine_ = nullptr;
-  Real farthest_out_ = 0;    // length; past a periodic face that spheres were seen to go, and more
+  Real farthest_out_ = 0;    // length that spheres have gone past a periodic face, and more
   bool out_warned_ = false;
   std::int64_t box_rebuilds_ = 0;    // in this run
 };

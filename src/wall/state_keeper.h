@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What of a wall goes into a saved state, and what of a saved state goes into a wall.
+// Saves the state of a wall, and restores a wall from a saved state.
 #pragma once
 
 #include "wall/coat/body_coats.h"
@@ -19,11 +19,11 @@
 
 namespace lsdcd {
 
-// Each part of a wall saves, checks and restores what it keeps; this says in which order, of which meshes, and what is told of what
-// is left out. The springs of spheres are HistoryExchange's.
+// Each part of a wall saves, checks and restores what it keeps. This class decides the order and the meshes, and warns of what is left
+// out. HistoryExchange saves the springs of spheres.
 class StateKeeper {
  public:
-  // What is saved. All must outlive the keeper.
+  // The parts that are saved. All of them must outlive the keeper.
   struct Parts {
     std::deque<MeshPart> &meshes;
     BodyCoats &coats;
@@ -39,26 +39,25 @@ class StateKeeper {
   {
   }
 
-  // Returns the state after a step that is complete, and whose sums are made; `time`: of the spheres. The loads of all processes are
-  // on the first one alone. Collective.
+  // Returns the state after a step that is complete, and whose sums have been made. `time`: that of the spheres. Only the first process
+  // gets the loads, which are those of all processes. Collective.
   WallState save(Time time);
 
-  // Throws InputError, the same on all processes, where restore() would put a mesh where it may not be.
+  // Throws InputError, the same on all processes, if restore() would put a mesh where it is not allowed.
   void check(const WallState &was) const;
-  // Keeps what the wall was made as, which takes as much memory as a state, so that restore() may be called more than once.
-  // Collective.
+  // Keeps the wall as it was made, so that restore() may be called more than once. This takes as much memory as a state. Collective.
   void keep_made();
   // Takes a state that was checked, the same on all processes, in place of any that was restored before. The first process warns of what
   // does not fit. Collective.
   void restore(const WallState &was, const Step &now);
-  // Nothing is restored from now on.
+  // Ends restoring: nothing is restored from now on.
   void end_restoring() { made_.reset(); }
 
  private:
-  // A wall to which nothing was restored.
+  // The wall as it was made, before anything was restored to it.
   struct Made {
     WallState state;
-    std::vector<RigidMotion> motions;    // a saved state may have stopped them
+    std::vector<RigidMotion> motions;    // as they were made; a saved state may have stopped them
   };
 
   void go_back(const Step &now);
@@ -69,7 +68,7 @@ class StateKeeper {
   const WallSpec &wall_;
   Parts of_;
   bool is_restored_ = false;
-  std::unique_ptr<Made> made_;    // null: it was not kept
+  std::unique_ptr<Made> made_;    // null: the wall as made was not kept
 };
 
 }    // namespace lsdcd

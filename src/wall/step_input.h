@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a host gives to each step of a wall, beside its spheres.
+// The input that a host gives to each step of a wall, in addition to its spheres.
 #pragma once
 
 #include "engine/engine.h"
@@ -14,16 +14,16 @@ namespace lsdcd {
 // The input of a step.
 struct StepInput {
   Step step;
-  bool look = false;    // spheres may be others, or have other radii or types, since the last step
+  bool look = false;           // spheres, radii or types may differ from those of the last step
   bool new_spheres = false;    // spheres may have come: the timestep and their overlaps are checked
   bool box_changes = false;    // the box may have changed since the last step
   SphereDrift drift;
-  When when = When::in_turn;    // its work is done
+  When when = When::in_turn;    // when the step does its work
   bool virial = false;          // add_virial() will be called
-  // The values of spec().inputs in this step, the same on all processes; of those that inputs_read() leaves out
-  // any number.
+  // The values of spec().inputs in this step, the same on all processes. Those that inputs_read() does not name may
+  // be any number.
   std::vector<Real> inputs;
-  // Acceleration of spheres by the host, three numbers (force/mass) that may change until the next step; null: none.
+  // Acceleration of spheres by the host: three numbers (force/mass) that may change until the next step. Null: none.
   const Real *gravity = nullptr;
 };
 

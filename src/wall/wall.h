@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A wall of meshes that any program can step: it finds the contacts of spheres, and gives each sphere
-// its force and torque.
+// A wall of meshes that any program can step: it finds the contacts of spheres, and adds the wall's force and torque to each sphere.
 #pragma once
 
 #include "base/input_error.h"
@@ -37,11 +36,11 @@ namespace lsdcd {
 
 // Where a wall computes.
 struct WallBackend {
-  // Makes its engine. Throws InputError where there is none for these settings.
+  // Makes the engine of the wall. Throws InputError if no engine exists for these settings.
   std::function<std::unique_ptr<WallEngine>(const EngineSettings &)> make_engine =
       lsdcd::make_engine;
   bool in_place = false;    // spheres are in the memory of its backend
-  ToCpu to_cpu;             // where that is a GPU's
+  ToCpu to_cpu;             // if that is the memory of a GPU
 };
 
 // The host's units.
@@ -50,151 +49,151 @@ struct WallUnits {
   Real velocity = 1;    // a force times time over a mass, in the unit of velocity
 };
 
-// In each step: begin(), submit(), finish(). Places, velocities and radii must not change between begin()
-// and finish(); forces and torques may.
+// The program calls begin(), submit() and finish() in each step. Places, velocities and radii must not change between begin() and finish();
+// forces and torques may.
 //
-// Spheres are counted from 0, meshes too. Functions are collective, so that all processes call them, but for those
-// that say that they are local. Errors are InputError; those of one process alone are local.
+// Spheres and meshes are counted from 0. All functions are collective, which means that all processes call them, unless their comment says
+// that they are local. Errors are InputError; an error of a single process is local.
 class Wall {
  public:
-  // Reads the meshes, makes the engine, and logs what there is. `material`: what a material file filled in,
-  // for the log. `clock`: the time of the host. `there`: the spheres that there are, in memory of the CPU. The host
-  // must outlive the wall. Throws InputError where the spec makes no sense.
+  // Reads the meshes, makes the engine, and logs the wall. `material`: what a material file has filled in, for the log. `clock`: the time
+  // of the host. `there`: the spheres that exist now, in memory of the CPU. The host must outlive the wall. Throws InputError if the spec
+  // makes no sense.
   Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backend,
        const std::string &material, const StepClock &clock, const HostSpheres &there = {});
 
-  // Local:
+  // The following functions are local.
   const WallSpec &spec() const { return spec_; }    // pressures are forces per area
   const LawTable &laws() const { return laws_; }
   const std::deque<MeshPart> &meshes() const { return meshes_; }
-  // Those of spec().inputs whose values a step reads, by their numbers: of motions first, then temperatures.
+  // Returns which of spec().inputs a step reads, by their numbers: first those of motions, then temperatures.
   std::vector<int> inputs_read() const;
   Real cutoff() const { return grids_.cutoff(); }    // length; 0: there were no spheres yet
   HistoryExchange &history() { return history_; }
-  std::size_t bytes() const;    // of this process
+  std::size_t bytes() const;    // memory of this process
 
-  // Before each run. `virial`: add_virial() may be called in it.
+  // Prepares for a run; called before each one. `virial`: add_virial() may be called in that run.
   void begin_run(std::int64_t step, bool virial);
 
-  // Begins a step: advances the clock, moves the meshes, and builds grids where they do not fit. Where spheres are in
-  // the memory of a GPU, what the step reads of them must be there once the host's stream has done its work so far. What one of several
-  // processes cannot do alone finish() throws there, once all have come to it.
+  // Begins a step: advances the clock, moves the meshes, and rebuilds grids that no longer fit. If spheres are in the memory of a GPU, the
+  // data that the step reads must be complete once the work that is in the host's stream now is done. If there are several processes and
+  // one of them fails, finish() throws its error later, after all processes have reached it.
   void begin(const HostSpheres &spheres, const StepInput &input);
-  // Moves the vertices of meshes that change by themselves, as by wear, where that is due in this step. A host that reads the surface before begin()
-  // calls it; otherwise begin() does.
+  // Moves the vertices of meshes that change by themselves, as by wear, if this is due in this step. A host that reads the surface before
+  // begin() calls this function first; otherwise begin() does.
   void change_surfaces(const Step &step);
-  // Chooses the spheres near the wall where that is due, and starts the step where the engine can work beside the host.
-  // Local.
+  // Searches for the candidates, the spheres near the wall, if a search is due, and starts the step if the engine can work while the host
+  // does. Local.
   void submit(const HostSpheres &spheres);
-  // Returns how far the step is. StepState::none means that no step was begun, or one without spheres. Local.
+  // Returns how far the step has come. StepState::none means that no step was begun, or that a step without spheres was. Local.
   StepState step_state() const { return engine_->state(); }
-  // Adds forces and torques to those of the spheres, and submits the step before if nobody has.
+  // Adds forces and torques to those of the spheres. Submits the step first if the host has not done so.
   void finish(const HostSpheres &spheres);
 
   // Sets all totals to 0, because the wall acts on nothing until the next step. Local.
   void clear_totals();
-  // Reads what steps have noted of these spheres since the last call. Must be called before spheres change their order or
-  // process, because notes name spheres by their index. Throws where a step had to leave out a sphere. Local.
+  // Reads what steps have noted about these spheres since the last call. Must be called before spheres change their order or process,
+  // because notes name spheres by their index. Throws InputError if a step had to leave out a sphere. Local.
   void poll_diagnostics(const HostSpheres &spheres);
-  // Returns the deepest overlap (length) that was read on this process since begin_run(), of a host with arrays in float.
+  // Returns the deepest overlap (length) that this process has read since begin_run(), if the host has its arrays in float.
   Real deepest_overlap() const { return deepest_overlap_; }
-  // Warns where spheres went too far past a periodic face. Hosts that do not know how far spheres go call it before they wrap
-  // them. Positions and groups are read in the memory in which the engine reads them.
+  // Warns if spheres went too far past a periodic face. A host that does not know how far spheres move calls it before it wraps them.
+  // Positions and groups are read in the memory in which the engine reads them.
   void check_wrapping(const Spheres &spheres) { grids_.check_wrapping(spheres); }
-  // Ends a run: logs how it went. `advice` follows the number of choices in the log; `loop` is the run's time in seconds, or 0
-  // if it is not known.
+  // Ends a run and logs a summary. In the log `advice` follows the number of candidate searches. `loop`: the time of the run in seconds, or
+  // 0 if it is not known.
   void end_run(const HostSpheres &spheres, bool far, const std::string &advice, Real loop);
 
   // Returns the totals of the last step, summed over all processes.
   const StepTotals &totals();
-  // Returns them with the power of nodes by the velocities of the whole step, which they have now, where the host knows these. After
-  // the end of a run the power stays.
+  // Returns the totals with the power of nodes computed from velocities of the whole step, if the host knows these now. After the end of a
+  // run the power stays as it was.
   const StepTotals &totals_with_power();
   MeanLoads &means() { return means_; }        // of spec().average_every steps
   EnergyBooks &energy() { return energy_; }    // of a wall with spec().energy
-  // Returns the spectrum of the impacts on a mesh, of a wall with spec().impact_speed.
+  // Returns the spectrum of the impacts on a mesh, for a wall with spec().impact_speed.
   ImpactSpectrum impacts(int mesh) { return records_.spectrum(mesh); }
-  // Return the volume by which wear has moved a mesh back, and the volume that is worn but held back, see MeshWear. 0 of others.
+  // Return the volume by which wear has moved a mesh back, and the volume that is worn but held back (see MeshWear). 0 for meshes that do
+  // not wear.
   Real removed(int mesh) const { return meshes_[mesh].surface->removed(); }
   Real held_back(int mesh) const { return meshes_[mesh].surface->held_back(); }
   Real worn(int mesh) { return spec_.wears() ? loads_.worn(mesh) : 0; }    // volume
   // Returns the force, or the torque, of the mesh on the spheres along the axis of its servo.
   Real servo_push(int mesh);
-  // Returns the body that a mesh is, with velocities of the whole step, or null if it is none.
+  // Returns the body of a mesh, with velocities of the whole step, or null if the mesh is no body.
   const BodyMover *body(int mesh);
   MeshNodes &nodes(int mesh) { return *meshes_[mesh].nodes(); }    // of a mesh that has_nodes
-  // Returns the forces of the last step on the nodes of a mesh that has_nodes, x y z, node after node: those of contacts and of
-  // its pressure, summed over all processes.
+  // Returns the forces of the last step on the nodes of a mesh with has_nodes, x y z, node after node: those of contacts and of its
+  // pressure, summed over all processes.
   const std::vector<Real> &node_forces(int mesh);
-  // Writes this process's share of node_forces() to `to`, which lies where the wall computes, as MeshNodes::put_forces() says.
-  // Local.
+  // Writes this process's share of node_forces() to `to`, which must be in the memory in which the wall computes; see
+  // MeshNodes::put_forces(). Local.
   bool put_node_forces(int mesh, Real *to, const std::vector<int> &node_of_row);
   // Adds the sum of arm times force over the contacts of this process, an energy, to six numbers: xx, yy, zz, xy, xz, yz. Local.
   void add_virial(Real *virial) const;
-  // Calls row(sphere, numbers) for each sphere of this process with a contact, with the
-  // spec().contact_columns() numbers of the contacts array. Local.
+  // Calls row(sphere, numbers) for each sphere of this process that has a contact, with the spec().contact_columns() numbers of the
+  // contacts array. Local.
   void for_contact_rows(const std::function<void(int, const Real *)> &row) const;
 
-  // Calls found(contact) for each contact of the last step of this process, where spec().each_contact, sphere after
-  // sphere; where spec().energy then for those that the step has ended. Local.
+  // Calls found(contact) for each contact of this process in the last step, if spec().each_contact is set, sphere after sphere. If
+  // spec().energy is set, it then calls found() for the contacts that the step has ended. Local.
   void for_contacts(const std::function<void(const WallContact &)> &found) const;
 
   // Writes the files that are due in this step.
   void write_due_files();
   int files_every() const { return files_.every(); }    // steps; 0: there are none. Local.
 
-  // The following are called between steps. Where they throw InputError, nothing has changed.
+  // The following functions are called between steps. If one of them throws InputError, nothing has changed.
 
-  // Sets the names of inputs, which begin with those that there are.
+  // Replaces the names of inputs. The new names must begin with the present ones.
   void set_inputs(const InputNames &inputs);
-  // Returns why this mesh takes no motion, servo or pose, or an empty text if it takes them. Local.
+  // Returns why this mesh cannot have a motion, servo or pose, or an empty text if it can. Local.
   std::string why_it_takes_no_motion(int mesh) const { return meshes_[mesh].mover.why_no_motion(); }
-  // Moves a mesh by another motion from where it is, or stops it by a motion without terms. Its servo goes on; the servo of
+  // Moves a mesh by another motion from where it is, or stops it if the motion has no terms. Its servo stays the same; the servo of
   // `motion` is not read.
   void set_motion(int mesh, const RigidMotion &motion, const Step &now);
-  // Moves a mesh by another servo from where it is, or takes its servo away by one that is not present. A servo along the
-  // same line goes on from the position that the last one had.
+  // Moves a mesh by another servo from where it is, or removes its servo if the new one is not present. A servo along the same line
+  // continues from the position of the previous one.
   void set_servo(int mesh, const Servo &servo);
-  // Sets what holds and drives a mesh that is a body: joint, spring, limits, motor, load, moment and gravity of `to`, from
-  // where the body is, without a jump. With another joint its coordinate begins at 0 there, and what the joint allows
-  // of its velocity goes on. The rest of `to` is not looked at.
+  // Sets what holds and drives a mesh that is a body: joint, spring, limits, motor, load, moment and gravity of `to`. The body continues
+  // from where it is, without a jump. With another joint its coordinate begins at 0 there, and the part of its velocity that the joint
+  // allows stays. The rest of `to` is not read.
   void set_body(int mesh, const BodySpec &to);
-  // Throws InputError where it is none. Local.
+  // Throws InputError if the mesh is no body. Local.
   void check_is_body(int mesh) const;
-  // Sets the pose, for the next step and those after it, of a mesh whose motion is_posed(), and that is no body and has no
-  // nodes. Local.
+  // Sets the pose of a mesh for the next step and those after it. The motion of the mesh must be is_posed(), and it must be no body and
+  // have no nodes. Local.
   void set_pose(int mesh, const Pose &pose) { meshes_[mesh].mover.set_pose(pose); }
-  // Sets places (length) and velocities (length/time) of the nodes of a mesh that has_nodes, x y z, node after node, for the
-  // next step and those after it. Velocities are of the same time as those of spheres, or all 0 where `v` is null. All
-  // processes give the same numbers. Local.
+  // Sets places (length) and velocities (length/time) of the nodes of a mesh with has_nodes, x y z, node after node, for the next step and
+  // those after it. Velocities are of the same time as those of spheres; if `v` is null they are 0. All processes give the same numbers.
+  // Local.
   void set_nodes(int mesh, const Real *x, const Real *v) { nodes(mesh).set(x, v); }
-  // Sets places and velocities of nodes from arrays that lie where the wall computes, as MeshNodes::set_in_place() says.
+  // Sets places and velocities of nodes from arrays in the memory in which the wall computes; see MeshNodes::set_in_place().
   void set_nodes_in_place(int mesh, const Real *x, const Real *v,
                           const std::vector<int> &node_of_row)
   {
     nodes(mesh).set_in_place(x, v, node_of_row);
   }
 
-  // Writes the history of a sphere for a saved state, with names of features that hold in any run. Returns how many numbers it
-  // wrote. Local.
+  // Writes the history of a sphere for a saved state. Features get names that are valid in any run. Returns how many numbers it wrote.
+  // Local.
   int pack_saved(int sphere, Real *buffer);
-  // Returns what the wall keeps beside the histories of spheres, for a saved state. The loads of all processes are on the first
-  // one alone.
+  // Returns the state of the wall for saving, without the histories of spheres. Only the first process gets the loads, which are those of
+  // all processes.
   WallState save();
-  bool has_begun() const { return has_begun_; }    // a step. Local.
-  // Throws InputError where the first step could not begin, as it is of bodies outside of their limits. Local.
+  bool has_begun() const { return has_begun_; }    // whether a step was begun. Local.
+  // Throws InputError if the first step cannot begin because a body is outside of its limits. Local.
   void check_start() const
   {
     for (const MeshPart &m : meshes_) m.mover.check_start();
   }
-  // Keeps what the wall was made as until the first step, for a host that may call restore() more than once. It takes as much
-  // memory as a saved state, on each process.
+  // Keeps the wall as it was made until the first step, for a host that may call restore() more than once. It takes as much memory on each
+  // process as a saved state.
   void keep_made();
-  // Restores what another wall has saved, before the first step; all processes give the same state. Throws InputError, with
-  // nothing changed, where a servo or a body would be outside of its limits.
+  // Restores the state that another wall has saved, before the first step; all processes give the same state. Throws InputError, with
+  // nothing changed, if a servo or a body would be outside of its limits.
   void restore(const WallState &was, const Step &now);
-  // Restores the history of the spheres of this process after restore(), each as pack_saved() wrote it. Warns of what does not
-  // fit.
+  // Restores the histories of the spheres of this process after restore(), each as pack_saved() wrote it. Warns of what does not fit.
   void restore_springs(const std::vector<std::vector<Real>> &spheres);
 
  private:
@@ -250,13 +249,14 @@ class Wall {
   WallSpec spec_;    // motions change later
   LawTable laws_;    // of the spec
   WallBackend backend_;
-  // The time of the spheres; the host's time begins again in some runs from a saved state.
+  // The time of the spheres. It differs from the host's time in a run that continues from a saved state, if the host's time begins again.
   StepClock clock_;
   Real pressure_unit_;             // of inputs
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
-  // Lists of them, in their order: who has nothing to do in a step is in none. Those that are, or may be, where their file does not
-  // have them; of these, and of those whose surface varies, those that may move in the next step; whose own shape changes; that are
-  // bodies; that have a servo; whose loads are recorded. Those whose nodes move, which stay the same.
+  // Lists of meshes, in the order of the meshes. A mesh that has nothing to do in a step is in none. In the order of the members: those
+  // that are, or may be, away from where their file has them; of these and of those whose surface varies, the ones that may move in the
+  // next step; those that change their shape; those that are bodies; those with a servo; those whose loads are recorded; those with nodes
+  // that move, which stay the same.
   std::vector<MeshPart *> placed_, moving_, changing_, bodies_, servos_, recorded_,
       with_energy_records_;
   std::vector<MeshNodes *> with_nodes_;
@@ -266,7 +266,7 @@ class Wall {
   bool is_set_up_ = false;    // the last step set a run up
   std::unique_ptr<WallEngine> engine_;
   bool engine_moves_ = false, engine_contacts_ = false;    // what its laws are compiled for
-  bool reads_loads_ = false;    // are contacts read in each step for loads or wear?
+  bool reads_loads_ = false;    // does each step read contacts for loads or wear?
   bool virial_ = false;         // may be asked for in this run
 
   HistoryExchange history_;
@@ -289,16 +289,16 @@ class Wall {
   StepInput input_;                           // of the last begin()
   std::vector<std::vector<Vec3>> receded_;    // see StepSettings; empty: no mesh has moved so
   std::vector<Pose> poses_;                   // of the meshes in the last step that was finished
-  bool has_begun_ = false;                    // a step
-  bool is_running_ = false;                   // a step, and no run has ended since
-  std::optional<InputError> failure_;    // of the last step on this process, where there are others
+  bool has_begun_ = false;                    // a step was begun
+  bool is_running_ = false;                   // a step was begun, and no run has ended since
+  std::optional<InputError> failure_;    // of this process in the last step, if there are others
   bool continued_ = false;               // from a saved state
   bool springs_told_ = false;
   bool points_warned_ = false;
   SphereRange range_;    // for gains of servos and the timestep of bodies
   bool range_is_known_ = false;
   Real largest_within_ =
-      0;    // radius of the largest ball in a grain, when they were looked at last (length)
+      0;    // radius of the largest ball that fits in a grain, as of the last check (length)
 };
 
 }    // namespace lsdcd

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Files of a wall's meshes that a run writes every so many steps.
+// The files of a wall's meshes that a run writes at regular steps.
 #pragma once
 
 #include "output/file_series.h"
@@ -16,33 +16,31 @@
 
 namespace lsdcd {
 
-// A mesh where it is in this step.
+// A mesh, with its place in this step.
 struct PosedMesh {
   const WeldedMesh *mesh;    // of the first process; elsewhere it may be null
   Pose pose;
 };
 
-// The first process writes. A file that cannot be written is warned of once a run, and the run goes
-// on: it may be weeks old.
+// Only the first process writes. If a file cannot be written, it warns once a run, and the run continues, because it may be
+// weeks old.
 class WallFiles {
  public:
-  // Host and settings must outlive it. `pressure_unit`: a force per area of 1 in the host's unit of
-  // pressure.
+  // Host and settings must outlive this object. `pressure_unit`: a force per area of 1 in the host's unit of pressure.
   WallFiles(Host &host, const WallSpec &settings, Real pressure_unit);
 
-  // Files are due in multiples of this many steps only; 0: there are none.
+  // Returns a number of steps: files are due only in its multiples. 0: there are no files.
   int every() const;
 
-  // Goes on with the lists of files that an earlier run wrote.
+  // Continues the lists of files that an earlier run wrote.
   void continue_lists() { continues_ = true; }
 
-  // Before a run. Throws InputError on all processes where a file cannot be made, or would replace one that the wall reads: told
-  // now, not hours later. Collective.
+  // Prepares for a run. Throws InputError on all processes if a file cannot be made, or would replace one that the wall reads,
+  // so that the user is told now and not hours later. Collective.
   void begin_run(std::int64_t step);
 
-  // Writes what is due in this step, at `time`. `loads`: null in a snapshot, of which there are
-  // no mesh_fields and no spectrum. An average that is written begins again; one that could not be written goes on
-  // to the next file. Collective.
+  // Writes the files that are due in this step, at `time`. `loads`: null in a snapshot, which has no mesh_fields and no
+  // spectrum. An average that was written begins again; one that could not be written continues to the next file. Collective.
   void write_due(std::int64_t step, double time, const std::vector<PosedMesh> &meshes,
                  LoadRecorder *loads, EnergyRecorder &energies);
 

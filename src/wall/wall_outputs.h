@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The numbers that a wall and each of its meshes have in a step, in the order of their columns.
+// The output numbers of a wall and of each of its meshes in a step, in the order of their columns.
 #pragma once
 
 #include "output/output_row.h"
@@ -12,7 +12,7 @@
 
 namespace lsdcd {
 
-// What a wall must have for a row of outputs to be more than 0.
+// What a wall must have so that a row of outputs can be different from 0.
 enum class OutputPart {
   every_wall,
   servo,
@@ -33,15 +33,15 @@ const char *keyword_of(OutputPart part);
 struct WallOutput {
   // Its name is that of the member of the library's lsdcd_wall_totals; of a body, with "body_" before it, of lsdcd_body_state.
   OutputRow row;
-  bool adds_up;    // with the size of a system
+  bool adds_up;    // is it extensive: does it grow with the size of a system?
   OutputPart part;
   Real (*of_mesh)(Wall &wall, int mesh, int d);    // column d of n; collective
-  // Of all meshes together. Null: that of the only mesh that has a servo, body or motion, and of other parts the sum over
+  // The value for all meshes together. Null: that of the only mesh that has a servo, body or motion; for other parts the sum over
   // meshes.
   Real (*of_all)(Wall &wall, int d);
 };
 
-// The rows. Their columns follow each other from 0; that of the scalar comes last.
+// Returns the rows of outputs. Their columns follow each other from 0; that of the scalar comes last.
 const std::vector<WallOutput> &wall_outputs();
 // Returns how many columns this wall has: up to the last one of a part that it has.
 int n_outputs(const WallSpec &wall);
@@ -50,8 +50,9 @@ int n_outputs(const WallSpec &wall);
 // that the wall does not have. Collective.
 Real output_value(Wall &wall, int mesh, const WallOutput &output, int d);
 Real output_of(Wall &wall, int mesh, int column);
-// Returns likewise the number of a name. Throws InputError where no number is called so. Collective.
+// Returns the number of a name, of a mesh or of all together, as output_value() does. Throws InputError where no number is called so. Collective.
 Real output_by_name(Wall &wall, int mesh, const std::string &name);
+// Returns whether a wall may have a number of this name.
 bool is_output(const std::string &name);
 // Returns the numbers that this wall has, in the order of their columns, with the scalar as column -1.
 std::vector<NamedElement> named_outputs(const WallSpec &wall);
