@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The springs of a process's spheres in memory of the CPU, while a host moves spheres.
+// The springs of a process's spheres in memory of the CPU, for the time in which a host moves
+// spheres.
 #pragma once
 
 #include "contact/spring.h"
@@ -12,9 +13,9 @@
 namespace lsdcd {
 
 // Springs of sphere i are pool[first[i]] .. pool[first[i] + count[i] - 1].
-// It holds two ints per sphere, one Spring per contact, and for each Spring the `n_extra` numbers
-// that further effects of the contact law keep (most laws have none). The host may copy, pack,
-// unpack and reset spheres.
+// Holds two ints per sphere, one Spring per contact, and for each Spring the `n_extra` numbers that
+// further effects of the contact law keep (most laws have none). The host may copy, pack, unpack and
+// reset spheres.
 class ContactHistory {
  public:
   explicit ContactHistory(int n_extra = 0) : n_extra_(n_extra) {}
@@ -22,7 +23,7 @@ class ContactHistory {
   int n_extra() const { return n_extra_; }
   int doubles_per_spring() const { return kPackedSpring + n_extra_; }
 
-  void grow(int n_spheres);    // keeps what is there, new spheres have none
+  void grow(int n_spheres);    // keeps present springs; new spheres have none
   void copy(int from, int to) { first_[to] = first_[from], count_[to] = count_[from]; }
   void clear(int i) { count_[i] = 0; }
 
@@ -49,15 +50,17 @@ class ContactHistory {
       }
   }
 
-  // Takes over the springs of n spheres from elsewhere, with first[] and count[] as they are there.
+  // Takes the springs of n spheres from elsewhere, with first[] and count[] as they are there.
   void assign(std::vector<int> first, std::vector<int> count, std::vector<Spring> pool,
               std::vector<Real> extra);
 
-  // Exchange and restart: a count, then doubles_per_spring() numbers for each.
+  // The packed form, for exchange and restart: a count, then doubles_per_spring() numbers for each
+  // spring.
   int packed_size(int i) const { return 1 + doubles_per_spring() * count_[i]; }
   int pack(int i, double *buffer) const;      // returns packed_size(i)
   int unpack(int i, const double *buffer);    // returns how many numbers were read
-  // The same of numbers with n_extra others beside each spring: the last ones are left out, or are 0.
+  // Does the same for numbers that were packed with n_extra extra numbers for each spring. Surplus
+  // ones are left out, missing ones are 0.
   int unpack(int i, const double *buffer, int n_extra);
   int largest_packed_size() const;    // over all spheres
 

@@ -9,12 +9,13 @@
 
 namespace lsdcd {
 
-// Contacts of one sphere, at most: more are an error.
+// The largest number of contacts of one sphere: more are an error.
 constexpr int kMaxContacts = 512;
 
-// The contacts of a set of any size, borrowed. The step asks the same of those of other grains (grain_contacts.h).
+// A borrowed view of the contacts in a set of any size. GrainContactsView (grain_contacts.h) answers the same
+// questions for grains that are no spheres.
 struct ContactsView {
-  static constexpr bool kHasArms = false;    // are they kept with the springs?
+  static constexpr bool kHasArms = false;    // are arms kept with the springs?
   int n;
   const FeatureCode *feature;
   const Vec3 *normal;
@@ -24,12 +25,12 @@ struct ContactsView {
   {
     return {n_of_part, feature + from, normal + from, distance + from};
   }
-  // Of a sphere of this radius at x, where the normal of contact i is n.
+  // Returns the overlap of a sphere of this radius at contact i; length.
   LSDCD_FN Real overlap_of(int i, Real radius) const { return radius - distance[i]; }
   LSDCD_FN Vec3 foot_of(int i, const Vec3 &x, const Vec3 &n) const { return x - distance[i] * n; }
 };
 
-// An array of a set. A set of one needs no index, so that it can stay in registers.
+// An array of a set. A set with a single contact needs no index, so that it can stay in registers.
 template <class T, int kMost>
 struct ContactArray {
   T at[kMost];
@@ -47,9 +48,8 @@ struct ContactArray<T, 1> {
   LSDCD_FN const T *data() const { return &only; }
 };
 
-// It has a fixed capacity, so that it can stay in registers and local memory.
-// `overflow` is set when there are more contacts than that. The caller then
-// repeats the search with a larger set, so that no contact is dropped.
+// The capacity is fixed, so that the set can stay in registers and local memory. `overflow` is set if there are
+// more contacts than that. The caller then repeats the search with a larger set, so that no contact is dropped.
 template <int kMost>
 struct ContactSet {
   int n = 0;
@@ -71,13 +71,14 @@ struct ContactSet {
     normal[n] = n_unit;
     distance[n++] = d;
   }
-  // Assigning an empty set would take 18 kB of a GPU thread's stack where the capacity is 512.
+  // Clears the set by its members: assigning an empty set of capacity 512 would take 18 kB of a GPU thread's
+  // stack.
   LSDCD_FN void clear()
   {
     n = 0;
     overflow = false;
   }
-  // Sorts by the features' numbers. Sets are small, and those from lists are nearly sorted.
+  // Sorts the contacts by the numbers of their features. Sets are small, and those from lists are nearly sorted.
   LSDCD_FN void sort()
   {
     for (int i = 1; i < n; i++) {

@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The corner rule: how overlaps of neighbouring contacts share one force.
+// The corner rule: how neighbouring contacts of a sphere share their overlap.
 #pragma once
 
 #include "contact/contact_set.h"
 
 namespace lsdcd {
 
-// One minus the cosine between two unit normals, without cancellation.
+// Returns one minus the cosine between two unit normals, without cancellation.
 template <class Direction>
 LSDCD_FN Real one_minus_cos(const Direction &a, const Direction &b)
 {
   return Real(0.5) * norm_sq(a - b);
 }
 
-// Does closest point i lie in the tangent plane of contact k, so that it bears nothing?
+// Returns whether closest point i lies in the tangent plane of contact k, so that it bears nothing.
 template <int kMost>
 LSDCD_FN bool lies_in_plane(const ContactSet<kMost> &set, Real radius, int i, int k, Real tolerance)
 {
@@ -23,9 +23,9 @@ LSDCD_FN bool lies_in_plane(const ContactSet<kMost> &set, Real radius, int i, in
   return fabs(rise) <= tolerance && set.distance[i] + set.distance[k] >= radius;
 }
 
-// One minus the cover of two contacts of a sphere, or of a grain by one minus what takes the cosine's place. Cover is a positive
-// definite function of the angle, as it is a sum of powers of the cosine; for parallel normals it is 1. It is less than the cosine
-// by kLess, but for angles below sqrt(2 / kNarrow).
+// Returns one minus the cover of two contacts, from one minus the cosine of their normals; for a grain that is no sphere, from one
+// minus the number that stands for the cosine. Cover is a positive definite function of the angle, because it is a sum of powers of
+// the cosine. For parallel normals it is 1. It is less than the cosine by kLess, except at angles below sqrt(2 / kNarrow).
 LSDCD_FN Real uncovered(Real one_minus_cosine)
 {
   constexpr Real kLess = 1e-6, kNarrow = 100;
@@ -33,8 +33,8 @@ LSDCD_FN Real uncovered(Real one_minus_cosine)
   return u + kLess * (1 - u) * (kNarrow * u / (1 + kNarrow * u));
 }
 
-// What the corner rule asks of a set: how alike two contacts are, above 0 where they share; what is one minus their cover if they
-// share; and how much a contact fades, which of spheres is nothing.
+// The quantities that the corner rule needs from a set: how alike two contacts are, above 0 if they share; one minus their cover,
+// if they share; and how much a contact fades, which is 0 for spheres.
 template <int kMost>
 LSDCD_FN Real likeness(const ContactSet<kMost> &set, int a, int b)
 {
@@ -54,23 +54,21 @@ inline constexpr bool kFades = false;    // is there a fade_of(set, i)?
 // G_ii = 1, and G_ij, the cover of two contacts, is the cosine between their normals, or 0 where that is negative:
 // contacts whose normals are at 90 degrees or more have w = 1 exactly. The weights of parallel duplicates sum to 1.
 //
-// The cover is less than the cosine by up to 1e-6, so that contacts whose normals depend on each other have one
-// solution. Where many walls surround a sphere the problem is not convex without its last term: s is twice what makes
-// it so, and kLeast of the largest d_i^2 at least. So it is strictly convex and changes continuously with overlaps and
-// normals, and so does its solution. Where s is the least the force of Hooke springs is the gradient of an energy
-// (doc/theory.md).
+// The cover is less than the cosine by up to 1e-6, so that the solution is unique even if normals are linearly dependent. If many
+// walls surround a sphere, the problem is not convex without its last term. Therefore s is twice the value that makes it convex,
+// and at least kLeast of the largest d_i^2. The problem is then strictly convex and changes continuously with overlaps and normals,
+// and so does its solution. If s has its least value, the force of Hooke springs is the gradient of an energy (doc/theory.md).
 //
 // Solved exactly by an active set: a contact enters while its gradient is positive, and leaves when its l would be
 // negative.
 //
-// A closest point that lies in the tangent plane of another contact bears nothing: its gradient is
-// (a - b) (R - a - b) / a, where a and b are the two distances and R is the radius. Where the two closest points are close,
-// rounding hides the sign of a - b. So edges that lie in the plane of a face, and vertices in that of an
-// edge or face, to `tolerance` (length), are left out first. Else the rim of a T-junction would turn the
-// force by the square root of a rounding error.
+// A closest point that lies in the tangent plane of another contact bears nothing: its gradient is (a - b) (R - a - b) / a, where a
+// and b are the two distances and R is the radius. If the two closest points are close to each other, rounding hides the sign of a
+// - b. Therefore edges that lie in the plane of a face, and vertices that lie in that of an edge or face, to `tolerance` (length),
+// are left out first. Otherwise the rim of a T-junction would turn the force by the square root of a rounding error.
 //
-// Set: of spheres a ContactSet. Of other grains (contact/grain_rule.h) `distance` is `radius` less the overlap, and the cover is by
-// curvature. A contact that fades has G_ii = 1 + its fade, and m_i = 1 + sum over the others of G_ij d_j / (d_i G_jj).
+// Set is a ContactSet for spheres. For other grains (contact/grain_rule.h) `distance` is `radius` less the overlap, and the cover
+// is given by curvature. A contact that fades has G_ii = 1 + its fade, and m_i = 1 + sum over the others of G_ij d_j / (d_i G_jj).
 template <int kMost, class Set = ContactSet<kMost>>
 class CornerRule {
  public:
@@ -94,7 +92,7 @@ class CornerRule {
   }
 
  private:
-  // Does closest point i lie in the tangent plane of a contact on a larger kind of feature?
+  // Returns whether closest point i lies in the tangent plane of a contact on a larger kind of feature.
   LSDCD_FN static bool lies_in_tangent_plane(const Set &set, Real radius, int i, Real tolerance)
   {
     const FeatureKind kind = feature_kind(set.feature[i]);
@@ -106,7 +104,7 @@ class CornerRule {
     return false;
   }
 
-  // The only two contacts: they need no memory, which a GPU has far from its threads.
+  // Solves for two contacts that are the only ones. They need no arrays, which on a GPU are in slow memory.
   LSDCD_FN static void solve_pair(const Set &set, Real radius, Real *weight, Real tolerance)
   {
     bool bears = true;
@@ -123,7 +121,7 @@ class CornerRule {
     }
   }
 
-  // G_ii.
+  // Returns G_ii.
   LSDCD_FN static Real diagonal([[maybe_unused]] const Set &set, [[maybe_unused]] int i)
   {
     if constexpr (kFades<Set>)
@@ -131,7 +129,7 @@ class CornerRule {
     else
       return 1;
   }
-  // The weight of a contact that shares with no other one.
+  // Returns the weight of a contact that shares with no other one.
   LSDCD_FN static Real alone([[maybe_unused]] const Set &set, [[maybe_unused]] int i)
   {
     if constexpr (kFades<Set>)
@@ -140,7 +138,7 @@ class CornerRule {
       return 1;
   }
 
-  // Contacts that share with no other one keep their weight.
+  // Leaves contacts that share with no other one out of the problem; they keep their weight.
   LSDCD_FN void leave_out_apart(const Set &set)
   {
     int n_sharing = 0;
@@ -154,12 +152,12 @@ class CornerRule {
     n_ = n_sharing;
   }
 
-  // A share is rounded by the largest overlap's bits, which may be more than a much
-  // smaller one has.
+  // Returns the weight, or 1 if it is larger. Shares are rounded relative to the largest overlap, which may be more than a much
+  // smaller overlap has.
   LSDCD_FN static Real at_most_one(Real weight) { return weight > 1 ? Real(1) : weight; }
 
-  // Without the last term: with it the force would differ by sqrt(2 kLeast) of the overlap at most, and that
-  // only where normals are that close.
+  // Solves for two contacts without the last term. With it the force would differ by at most sqrt(2 kLeast) of the overlap, and
+  // only if the normals are that close to each other.
   LSDCD_FN static void solve_two(const Set &set, Real radius, Real *weight, int a, int b)
   {
     const Real d0 = radius - set.distance[a], d1 = radius - set.distance[b];
@@ -167,7 +165,7 @@ class CornerRule {
     if constexpr (kFades<Set>)
       if (fade_of(set, a) > 0 || fade_of(set, b) > 0)
         return solve_fading(d0, d1, g, diagonal(set, a), diagonal(set, b), weight[a], weight[b]);
-    // The gradients when only the other contact is active, computed without cancellation.
+    // The gradients if only the other contact is active, computed without cancellation.
     const Real g0 = (d0 - d1) + u * d1, g1 = (d1 - d0) + u * d0;
     if (g1 <= 0 && g0 <= 0) {    // parallel and equally deep, to the last bits
       weight[a] = weight[b] = Real(0.5);
@@ -182,7 +180,7 @@ class CornerRule {
     }
   }
 
-  // Two contacts of which one fades: g_a, g_b are above 1 or 1, and g at most 1.
+  // Solves for two contacts of which one fades: g_a and g_b are at least 1, and g is at most 1.
   LSDCD_FN static void solve_fading(Real d_a, Real d_b, Real g, Real g_a, Real g_b, Real &weight_a,
                                     Real &weight_b)
   {
@@ -199,16 +197,16 @@ class CornerRule {
     }
   }
 
-  // The active contacts' rows of the matrix are kept as a Cholesky factor, so that adding
-  // one costs a forward substitution; leaving is rare and factors those behind it afresh.
+  // Solves for any number of contacts. The rows of the matrix that belong to active contacts are kept as a Cholesky factor. Adding
+  // a contact then costs a forward substitution; removing one is rare, and factors the rows behind it again.
   LSDCD_FN void solve_many(const Set &set, Real radius, Real *weight)
   {
     const int n = n_;
     make_convex(set, radius);
     n_active_ = 0;
     for (int k = 0; k < n; k++) l_[used_[k]] = 0;
-    // Each round adds one contact. The objective falls strictly, so that no active set
-    // occurs twice. The bound is a guard against round-off.
+    // Each round adds one contact. The objective decreases strictly, so that no active set occurs twice. The bound only guards
+    // against round-off.
     for (int round = 0; round < 4 * n + 8; round++) {
       int enter = -1;
       Real steepest = 0;
@@ -230,7 +228,7 @@ class CornerRule {
       weight[used_[k]] = at_most_one(l_[used_[k]] / (radius - set.distance[used_[k]]));
   }
 
-  // G_ij d_j / G_jj, and d_i for itself.
+  // Returns G_ij d_j / G_jj, and d_i for j = i.
   LSDCD_FN static Real covered_by(const Set &set, Real radius, int i, int j)
   {
     const Real part = cover(set, i, j) * (radius - set.distance[j]);
@@ -240,7 +238,7 @@ class CornerRule {
       return part;
   }
 
-  // Chooses s. The matrix scaled to m_i = 1 has the row sums d_i^2, so that s = max d_i^2 is always enough.
+  // Determines s. The matrix scaled to m_i = 1 has the row sums d_i^2, so that s = max d_i^2 is always enough.
   LSDCD_FN void make_convex(const Set &set, Real radius)
   {
     Real deepest = 0;
@@ -255,7 +253,7 @@ class CornerRule {
     Real low = least / 2, high = low;
     if (!is_convex(set, radius, low)) {
       high = most;
-      // Covers by curvature need no s that is known before.
+      // Covers by curvature need no s that is known in advance.
       if constexpr (kFades<Set>)
         for (int round = 0; round < kDoublings && !is_convex(set, radius, high); round++) high *= 2;
       for (int round = 0; round < kHalvings; round++) {
@@ -308,7 +306,7 @@ class CornerRule {
     return slope;
   }
 
-  // Appends a row to the factor; false if the matrix is not positive definite.
+  // Appends a row to the factor. Returns false if the matrix is not positive definite.
   LSDCD_NOINLINE bool push(const Set &set, int i)
   {
     const int m = n_active_;
@@ -335,8 +333,8 @@ class CornerRule {
     for (int k = leaving + 1; k < m; k++) push(set, active_[k]);
   }
 
-  // Moves l towards the solution on the active set. If l >= 0 stops it on the way, it drops the
-  // contact whose l became 0 and returns false. True: l is the solution.
+  // Moves l towards the solution on the active set. If the condition l >= 0 stops it on the way, it drops the contact whose l has
+  // become 0 and returns false. Returns true if l is the solution.
   LSDCD_FN bool step(const Set &set)
   {
     const int m = n_active_;
@@ -372,9 +370,9 @@ class CornerRule {
     return n_active_ == 0;
   }
 
-  // A pivot or a slope below this is round-off.
+  // A pivot or a slope below this is regarded as round-off.
   static constexpr Real kTiny = 5e-15;
-  // Least s, as a part of the largest d^2. Pivots are at least half of it, far above round-off.
+  // The least s, as a part of the largest d^2. Pivots are then at least half of it, far above round-off.
   static constexpr Real kLeast = 1e-12;
   static constexpr int kHalvings = 40, kDoublings = 20;
 
@@ -385,7 +383,7 @@ class CornerRule {
   bool shares_[kMost];
   Real stiff_[kMost], pull_[kMost];    // diagonal and right side of the problem
   Real l_[kMost];
-  Real work_[kMost];                        // m, until s is chosen; then where l goes
+  Real work_[kMost];                        // m, until s is known; then the l that is the target
   Real factor_[kMost * (kMost + 1) / 2];    // lower triangle, row by row
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How a spring turns with its feature where the nodes of the mesh move.
+// Turns a spring with its feature when the nodes of the mesh move.
 #pragma once
 
 #include "contact/history.h"
@@ -10,18 +10,18 @@
 
 namespace lsdcd {
 
-// The vectors that a spring keeps beside its shear displacement, at most.
+// The largest number of vectors that a spring keeps in addition to its shear displacement.
 constexpr int kMostVectors = 2;
 
-// A mesh whose nodes have gone from `from` to `to`, and the records of its faces there.
+// A mesh whose nodes have moved from `from` to `to`, with the records of its faces at `to`.
 struct TurningMesh {
   MeshTopologyView mesh;
   const FaceRecord *faces;
   const Vec3 *from, *to;
 };
 
-// The rotation of a face: its normal by the smallest turn of its plane, and in the plane the turn that fits best
-// (the polar decomposition of the plane map). `now`: its unit normal after the turn.
+// The rotation of a face: the smallest rotation that takes its old plane to its new one, followed by the rotation in that plane
+// that fits best (the polar decomposition of the plane map). `now`: the unit normal of the face after the turn.
 //
 // With the edges e0, f0 from one corner before and e1, f1 after, and the areas n = e x f, the plane map in the frames
 // (e/|e|, n x e/(|n| |e|)) is upper triangular, (p q; 0 r), with p = |e1|/|e0| and p r = |n1|/|n0|. It turns by the angle of
@@ -93,7 +93,7 @@ LSDCD_FN Vec3 direction_of_edge(const TurningMesh &m, int edge, const Vec3 *at)
   return (1 / norm(along)) * along;
 }
 
-// On a CPU: prefetches what turns a spring whose turn comes soon.
+// Prefetches, on a CPU, what is needed to turn a spring whose turn comes soon.
 LSDCD_FN void prefetch_turn([[maybe_unused]] const TurningMesh &m,
                             [[maybe_unused]] const Spring &spring)
 {
@@ -105,10 +105,10 @@ LSDCD_FN void prefetch_turn([[maybe_unused]] const TurningMesh &m,
 #endif
 }
 
-// Turns a spring and the n_vectors vectors beside it with its feature. On a face it keeps the face's normal, to the last
-// bit. An edge and a vertex turn by the mean of the rotations of their faces, keeping lengths: the faces around a vertex
-// count twice, as each is beside two of its edges. An edge without a face turns by the smallest turn of its line: where its ends
-// have changed places it has not turned.
+// Turns a spring, and the n_vectors vectors beside it, with the feature of the spring. On a face the spring's normal is the
+// normal of the face, to the last bit. On an edge or a vertex the spring turns by the mean of the rotations of its faces, and
+// lengths are kept. The faces around a vertex count twice, because each is beside two of its edges. An edge without a face turns
+// by the smallest rotation of its line; if its ends have changed places, it has not turned.
 LSDCD_FN void turn_with_feature(const TurningMesh &m, Spring &spring, Vec3 *beside, int n_vectors)
 {
   const int i = static_cast<int>(feature_index(spring.feature)), n = 2 + n_vectors;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// From a sphere to its contacts: one for each local minimum of distance.
+// Finds the contacts of a sphere: one for each local minimum of the distance.
 #pragma once
 
 #include "contact/primitive_contacts.h"
@@ -20,8 +20,8 @@ LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
     add_feature_noinline(geometry, cell.first, radius, set);
     return;
   }
-  // The list is sorted by distance from the cell's centre: no feature past this bound can be
-  // within the radius.
+  // The list is sorted by a bound of the distance from the cell's centre: no feature past this limit can be within the
+  // radius.
   const Entries entries(grid.lists);
   const typename Entries::Limit enough = entries.limit(radius + norm(at.from_centre));
   for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
@@ -57,10 +57,9 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
   return kAnyDistance;
 }
 
-// Finds the local minima of the distance from q to the wall that are below `radius` (length, at
-// most grid.cutoff). With complete lists it finds all, with nearest lists those on the listed
-// primitives. Returns the radius up to which none can be missing.
-// Entries: the form of the grid's complete lists.
+// Finds the local minima of the distance from q to the wall that are below `radius` (length, at most grid.cutoff). With
+// complete lists it finds all of them, with nearest lists those on the listed primitives. Returns the radius up to which
+// none can be missing. Entries: the form of the grid's complete lists.
 template <class Entries, int kMost>
 LSDCD_FN Real find_contacts_in(const GridView &grid, const Vec3 &q, Real radius,
                                ContactSet<kMost> &set)
@@ -70,7 +69,7 @@ LSDCD_FN Real find_contacts_in(const GridView &grid, const Vec3 &q, Real radius,
   return kAnyDistance;
 }
 
-// Finds the contacts in any grid, also one for queries, whose lists are full.
+// Finds the contacts in any grid, including grids for queries, whose lists are not packed.
 template <int kMost>
 LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
                             ContactSet<kMost> &set)
@@ -79,7 +78,7 @@ LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
   return find_contacts_in<PackedEntries>(grid, q, radius, set);
 }
 
-// Returns the outward pseudonormal of a feature: its dot product with (q - closest point) tells on which side of a closed
+// Returns the outward pseudonormal of a feature. Its dot product with (q - closest point) tells on which side of a closed
 // wall q is (Baerentzen and Aanaes 2005).
 LSDCD_FN Vec3 outward(const MeshFeaturesView &wall, FeatureCode feature)
 {
@@ -94,10 +93,9 @@ LSDCD_FN Vec3 outward(const MeshFeaturesView &wall, FeatureCode feature)
   }
 }
 
-// Keeps spheres on one side of a closed wall: sign +1 outside, -1 inside. The closest
-// point tells on which side the centre is. If that is the right side, contacts with the
-// wall's far face are dropped. Else the nearest contact is reversed: with the overlap
-// radius + distance it pushes the sphere back.
+// Keeps spheres on one side of a closed wall: sign +1 outside, -1 inside. The closest point tells on which side the centre
+// is. If that is the right side, contacts with the wall's far face are dropped. If it is the wrong side, the nearest
+// contact is reversed: with the overlap radius + distance it pushes the sphere back.
 template <int kMost>
 LSDCD_FN void filter_side(const MeshFeaturesView &wall, Real sign, ContactSet<kMost> &set)
 {

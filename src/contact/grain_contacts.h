@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The contacts of a grain that is no sphere: how alike two of them are, and how they take over the springs of the last step. How
-// they share is in grain_rule.h.
+// The contacts of a grain that is no sphere: how alike two of them are, and how they take over the springs of the last step.
+// grain_rule.h has the rule by which they share.
 //
-// Where spheres compare normals to hand on springs, such a grain compares what unit impulses at its contacts do to it. The cosine
-// of two contacts is that of (n, r x n), with r from the centre to the grain's point, in the metric of inverse mass and inertia:
-// two contacts with one normal at the two ends of a rod are not alike. Of a sphere it is the cosine of the normals.
+// When springs are transferred, contacts of spheres are compared by their normals. Contacts of other grains are compared by what
+// unit impulses at them do to the grain. The cosine of two contacts is that of their vectors (n, r x n), with r from the centre
+// to the grain's point, in the metric of inverse mass and inertia. So two contacts with the same normal at the two ends of a rod
+// are not alike. For a sphere it is the cosine of the normals.
 #pragma once
 
 #include "contact/history.h"
@@ -17,7 +18,7 @@
 
 namespace lsdcd {
 
-// A unit vector of six numbers: a normal, and the turning of the grain by an impulse along it.
+// A unit vector of six numbers: a normal, and the rotation of the grain by an impulse along it.
 struct GrainDirection {
   Vec3 normal, turning;
 };
@@ -41,7 +42,7 @@ struct GrainMetric {
 
   Vec3 turned(const Vec3 &v) const { return {dot(row[0], v), dot(row[1], v), dot(row[2], v)}; }
   Vec3 to_own(const Vec3 &v) const { return v.x * row[0] + v.y * row[1] + v.z * row[2]; }
-  // Returns the direction of a contact with this unit normal and this arm, from the centre.
+  // Returns the direction of a contact with this unit normal and this arm (from the centre).
   GrainDirection direction(const Vec3 &normal, const Vec3 &arm) const
   {
     const Vec3 t = to_own(cross(arm, normal));
@@ -51,7 +52,7 @@ struct GrainMetric {
   }
 };
 
-// In the frame of its mesh.
+// A contact in the frame of its mesh.
 struct GrainContact {
   FeatureCode feature;
   Vec3 normal;     // unit, wall -> grain
@@ -60,12 +61,12 @@ struct GrainContact {
   Vec3 foot;       // on the wall
   GrainDirection direction;
   const GrainMetric *metric;    // of the grain in that frame
-  Vec3 couple = {0, 0, 0};      // torque on the grain that is not by the force at this contact
+  Vec3 couple = {0, 0, 0};      // torque on the grain that the force at this contact does not cause
 };
 
-// The contacts of a grain that is no sphere, borrowed, as the step asks of them.
+// A borrowed view of the contacts of a grain that is no sphere, with the functions that a step needs.
 struct GrainContactsView {
-  // A member of each of them.
+  // A view of one member of each contact.
   template <class T>
   struct Member {
     const GrainContact *at;
@@ -90,12 +91,12 @@ inline const GrainDirection &direction_of(const GrainContactsView &set, int i)
   return set.at[i].direction;
 }
 
-// The springs of the last step, as one mesh sees them: each has an arm beside its shear displacement.
+// The springs of the last step in the frame of one mesh. Each has an arm in addition to its shear displacement.
 template <class Springs>
 struct OldGrainContacts {
   const Springs &springs;
   const Real *
-      extra;    // n_extra for each spring, of which the first three are the arm in the frame of the spring's mesh
+      extra;    // n_extra for each spring; the first three are the arm in the frame of the spring's mesh
   int n_extra;
   const GrainMetric &metric;
 

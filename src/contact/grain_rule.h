@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How the contacts of a grain that is no sphere share its overlaps (doc/notes/corners.md): the corner rule with a cover by the
-// curvature of the grain, and a fade of contacts that end at a fold.
+// How the contacts of a grain that is no sphere share its overlaps (doc/notes/corners.md): the corner rule, with a cover that
+// follows from the curvature of the grain, and with a fade of contacts that end at a fold.
 #pragma once
 
 #include "contact/corner.h"
@@ -24,15 +24,16 @@ struct SharingContact {
   Vec3 foot() const { return point - overlap * normal; }    // on the wall
 };
 
-// What two contacts of a grain are to each other.
+// How two contacts of a grain share.
 struct GrainCover {
   Real uncovered = 1;    // one minus their cover; 1: they do not share
-  // The torque on the grain by the turning of the cover, in its frame, over the stiffness and the product of both l: length^-1.
+  // The torque on the grain, in its frame, that comes from the change of the cover as the grain turns, divided by the stiffness and
+  // by the product of both l; length^-1.
   Vec3 couple = {0, 0, 0};
 };
 
-// Returns the cover of two contacts: the cosine of their normals, less the more the surface between the two is flatter than where it
-// is sharpest. Of a ball it is the cosine.
+// Returns the cover of two contacts: the cosine of their normals, reduced the more, the flatter the surface between them is compared
+// with its sharpest place. For a ball it is the cosine.
 inline GrainCover cover_of(const Superellipsoid &s, const SharingContact &a,
                            const SharingContact &b)
 {
@@ -57,18 +58,18 @@ inline GrainCover cover_of(const Superellipsoid &s, const SharingContact &a,
   return cover;
 }
 
-// The fade of a contact begins where the root of what it is deeper than the pass is this share of the sum of both roots.
+// The fade of a contact begins when the root of its overlap above the pass is less than this share of the sum of both such roots.
 constexpr Real kFadeFrom = 0.2;
 
-// Returns the overlap of a pass up to which a contact does not fade beside another one.
+// Returns the overlap of a pass up to which a contact does not fade because of another contact.
 inline Real overlap_without_fade(Real overlap, Real other)
 {
   constexpr Real kSquare = kFadeFrom / (1 - kFadeFrom) * (kFadeFrom / (1 - kFadeFrom));
   return (overlap - kSquare * other) / (1 - kSquare);
 }
 
-// Returns how much a contact fades beside another one that can be reached from it by a pass, which is as deep as `pass` > 0 at its
-// least: 0 far from it, and without bound where the contact comes to it.
+// Returns how much a contact fades because of another contact that is joined to it by a pass, whose least depth is `pass` > 0: 0 far
+// from the pass, and without bound as the contact reaches it.
 inline Real fade_beside(Real overlap, Real other, Real pass)
 {
   constexpr Real kStrength = 0.3, kLeast = 1e-9;
@@ -81,7 +82,7 @@ inline Real fade_beside(Real overlap, Real other, Real pass)
   return kStrength * more * more * share * share;
 }
 
-// What the corner rule reads of the contacts of a grain.
+// The numbers of a grain's contacts that the corner rule reads.
 struct GrainCornerSet {
   int n = 0;
   Real radius = 0;    // of the sphere around the grain
@@ -112,8 +113,8 @@ inline Real fade_of(const GrainCornerSet &set, int i)
 template <>
 inline constexpr bool kFades<GrainCornerSet> = true;
 
-// Does contact i lie in the plane of contact k, under the part of the grain that has passed it? The height of the centre there
-// stands for the distance of a sphere.
+// Returns whether contact i lies in the plane of contact k, under the part of the grain that has passed that plane. The height of
+// the centre over the plane stands for the distance that a sphere has.
 inline bool lies_in_plane(const GrainCornerSet &set, Real radius, int i, int k, Real tolerance)
 {
   const Real rise = dot(set.foot[i] - set.foot[k], set.normal[k]);
@@ -121,14 +122,15 @@ inline bool lies_in_plane(const GrainCornerSet &set, Real radius, int i, int k, 
          radius - set.distance[i] <= dot(set.foot[k], set.normal[k]);
 }
 
-// The weights and covers of one grain's contacts after the other's.
+// Computes the weights and covers of the contacts of one grain after another.
 class GrainRule {
  public:
-  // Takes the contacts of a grain, at least two; none of them fades.
+  // Takes the contacts of a grain, at least two. None of them fades yet.
   void begin(const Superellipsoid &shape, const std::vector<SharingContact> &contacts);
-  // Has contact i fade beside contact j, as deep as `pass` > 0 apart. Of several fades of a contact the strongest counts.
+  // Makes contact i fade because of contact j, which a pass of depth `pass` > 0 joins to it. If a contact has several fades, the
+  // strongest counts.
   void add_pass(int i, int j, Real pass);
-  // Writes the weights. `tolerance`: length, by which edges and vertices count as in a plane.
+  // Writes the weights. `tolerance`: length by which edges and vertices count as lying in a plane.
   void solve(Real tolerance, Real *weight);
   // Returns the couple of two contacts, see GrainCover.
   const Vec3 &couple(int i, int j) const { return set_.between(i, j).couple; }
@@ -142,7 +144,7 @@ class GrainRule {
 
   GrainCornerSet set_;
   CornerRule<kFew, GrainCornerSet> few_;
-  std::vector<CornerRule<kMost, GrainCornerSet>> many_;    // one, made where it is needed
+  std::vector<CornerRule<kMost, GrainCornerSet>> many_;    // one, made when it is needed
 };
 
 }    // namespace lsdcd

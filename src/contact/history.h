@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How the contacts of a step take over the springs of the last step.
+// Transfers the springs of the last step to the contacts of this step.
 #pragma once
 
 #include "contact/contact_set.h"
@@ -10,8 +10,8 @@
 
 namespace lsdcd {
 
-// Rotates a tangent vector by the smallest rotation that takes the unit vector `from` to `to`, which is not near its
-// opposite: transfer_of() hands nothing on there. The length stays. On a face the normals of two steps are equal.
+// Rotates a tangent vector by the smallest rotation that takes the unit vector `from` to `to`, and keeps its length. `to` must
+// not be nearly opposite to `from`: transfer_of() transfers no spring there. On a face the normals of two steps are equal.
 LSDCD_FN Vec3 transport(const Vec3 &h, const Vec3 &from, const Vec3 &to)
 {
   if (from == to) return h;
@@ -20,7 +20,7 @@ LSDCD_FN Vec3 transport(const Vec3 &h, const Vec3 &from, const Vec3 &to)
   return h + turned + (1 / (1 + dot(from, to))) * cross(axis, turned);
 }
 
-// Number of vertices of a feature, and the vertices.
+// Returns the number of vertices of a feature, and writes the vertices to v.
 LSDCD_FN int feature_vertices(const MeshFeaturesView &wall, FeatureCode feature, std::int32_t *v)
 {
   const std::uint32_t i = feature_index(feature);
@@ -37,8 +37,8 @@ LSDCD_FN int feature_vertices(const MeshFeaturesView &wall, FeatureCode feature,
   }
 }
 
-// Do two features share a vertex? A feature and its periodic image share all of theirs: a sphere that
-// is wrapped into the box leaves one for the other.
+// Returns whether two features share a vertex. A feature and its periodic image share all of theirs: a sphere that is wrapped
+// into the box leaves one for the other.
 LSDCD_FN bool are_adjacent(const MeshFeaturesView &wall, FeatureCode a, FeatureCode b)
 {
   std::int32_t va[3], vb[3];
@@ -53,25 +53,26 @@ LSDCD_FN bool are_adjacent(const MeshFeaturesView &wall, FeatureCode a, FeatureC
   return false;
 }
 
-// Cosine above which a contact that changed features is still the same contact.
+// Cosine above which a contact that has changed its feature is still the same contact.
 constexpr Real kMoved = 0.7;
 
-// Is spring k of the last step on the mesh that is looked at? If the wall has one mesh, all are.
+// Returns whether spring k of the last step is on the mesh of these contacts. True for all springs if the wall has one mesh.
 LSDCD_FN bool is_own(const Spring *, int)
 {
   return true;
 }
-// Returns a vector that belongs to spring k, in the frame of that mesh.
+// Returns a vector of spring k in the frame of the mesh of these contacts.
 LSDCD_FN Vec3 in_own_frame(const Spring *, int, const Vec3 &h)
 {
   return h;
 }
 
-// Cosine above which two contacts lie in the same direction: 1.4e-3 radians, more than rounding or one step
-// turns a normal.
+// Cosine above which two contacts have the same direction: 1.4e-3 radians, which is more than rounding or one step turns a
+// normal.
 constexpr Real kSameDirection = 1 - 1e-6;
 
-// What of two contacts of a sphere is compared: their normals. Of other grains it is more (grain_contacts.h).
+// Returns the direction by which two contacts are compared. For spheres it is the normal; for other grains it has more numbers
+// (grain_contacts.h).
 LSDCD_FN const Vec3 &direction_of(const ContactsView &set, int i)
 {
   return set.normal[i];
@@ -86,8 +87,8 @@ LSDCD_FN Vec3 old_direction(const Springs &old, int k)
   return old[k].normal;
 }
 
-// Does none of these contacts go on with old spring k, whose direction was `was`? One does if it is on its feature, or if it
-// carries it on: it lies in its direction, where the contact that asks does not (`carries`).
+// Returns whether none of these contacts continues old spring k, whose direction was `was`. A contact continues it if it is on
+// the same feature, or if it has the direction of the spring while the contact that asks does not (`carries`: it does).
 template <class Set, class Direction, class Springs>
 LSDCD_FN bool is_left_by(const Set &set, bool carries, const Direction &was, const Springs &old,
                          int k)
@@ -99,9 +100,9 @@ LSDCD_FN bool is_left_by(const Set &set, bool carries, const Direction &was, con
   return true;
 }
 
-// Was the contact of old spring k left, as contact i sees it? It was not if its feature is still in contact, or if
-// another contact carries it on: one in its direction, where contact i is not. There the sphere crossed a line that
-// cuts a face or an edge in two, and without that cut it would have left nothing.
+// Returns whether the contact of old spring k has ended, as contact i sees it. It has not if its feature is still in contact,
+// or if another contact continues it: one with its direction, while contact i has another direction. In that case the sphere
+// has crossed a line that cuts a face or an edge in two, and without that cut no contact would have ended.
 template <class Set, class Springs>
 LSDCD_FN bool is_left(const Set &set, int i, const Springs &old, int k)
 {
@@ -109,20 +110,20 @@ LSDCD_FN bool is_left(const Set &set, int i, const Springs &old, int k)
   return is_left_by(set, dot(direction_of(set, i), was) > kSameDirection, was, old, k);
 }
 
-// As transport(), also where a feature may have turned its normal round since, as by nodes that go far in one step: nothing is
-// left then.
+// Does the same as transport(), but also if a feature may have reversed its normal since, as when nodes move far in one step:
+// the result is then 0.
 LSDCD_FN Vec3 transport_unless_turned_round(const Vec3 &h, const Vec3 &from, const Vec3 &to)
 {
   return dot(from, to) > -kMoved ? transport(h, from, to) : Vec3{0, 0, 0};
 }
 
-// The spring of the last step that a contact begins with, and the share of it.
+// The spring of the last step with which a contact begins, and the share of it that it gets.
 struct Transfer {
   int from;     // index of the old spring; -1: a new one
   Real part;    // 0 to 1
 };
 
-// How much contact i of a sphere is like old spring k, of which the normals have this cosine.
+// Returns how alike contact i of a sphere and old spring k are, whose normals have this cosine.
 template <class Springs>
 LSDCD_FN Real likeness_to_old(const ContactsView &, int, const Springs &, int, Real of_normals)
 {
@@ -130,13 +131,13 @@ LSDCD_FN Real likeness_to_old(const ContactsView &, int, const Springs &, int, R
 }
 
 // 1. The spring of the same feature, unless the normal has turned round.
-// 2. Else one whose contact was left this step, nearly aligned and, of a sphere, next to this one:
-//    the contact moved across a seam, the spring goes with it, whole. A contact with arms may jump over
-//    many triangles in one step, as under a flat side: of several it takes over the most alike one.
-// 3. Else the most alike spring times its likeness, of spheres max(0, n.n): a contact born beside
-//    others takes over as much of their force as it will carry in their stead. Where n.n is not above 0 that
-//    is nothing, also of two contacts with arms that turn the grain alike, as between opposite walls.
-// Springs of other meshes hand over by 3 alone, as their features are not this wall's.
+// 2. Otherwise a spring whose contact has ended in this step, which is nearly aligned and, for a sphere, next to
+//    this contact: the contact has moved across a seam, and the whole spring moves with it. A contact with arms may
+//    jump over many triangles in one step, as under a flat side: of several springs it takes over the most alike one.
+// 3. Otherwise the most alike spring times its likeness, which is max(0, n.n) for spheres: a contact that begins
+//    beside others takes over that part of their force which it will bear in their place. If n.n is not above 0, that
+//    is nothing, even for two contacts with arms that turn the grain alike, as between opposite walls.
+// Springs of other meshes are transferred by rule 3 alone, because their features are not those of this wall.
 template <class Set, class Springs>
 LSDCD_FN Transfer transfer_of(const MeshFeaturesView &wall, const Set &set, int i,
                               const Springs &old, int n_old)
@@ -164,17 +165,17 @@ LSDCD_FN Transfer transfer_of(const MeshFeaturesView &wall, const Set &set, int 
   return {best, best_cos};
 }
 
-// Returns a vector of the old spring `in.from` after the contact with this unit normal has taken it over.
+// Returns a vector of old spring `in.from` after the contact with this unit normal has taken the spring over.
 template <class Springs>
 LSDCD_FN Vec3 handed_on(const Vec3 &h, const Transfer &in, const Springs &old, const Vec3 &normal)
 {
   return in.part * transport(h, old[in.from].normal, normal);
 }
 
-// Does adhesion hold the sphere at contact i, which does not overlap? Adhesion begins where they overlap. It goes
-// on if in the last step the same contact held the sphere, or one with nearly the same normal on an adjacent feature
-// or on another mesh: adhesion crosses seams. `shares`: contacts share their overlap, so that a contact may begin
-// while the last one lasts; else it begins where the last one has ended.
+// Returns whether adhesion holds the sphere at contact i, which does not overlap. Adhesion begins with an overlap. It
+// continues if in the last step the same contact held the sphere, or one with nearly the same normal on an adjacent feature or
+// on another mesh: adhesion crosses seams. `shares`: contacts share their overlap, so that a contact may begin while the
+// previous one lasts; otherwise it begins where the previous one has ended.
 template <class Springs>
 LSDCD_FN bool is_held(const MeshFeaturesView &wall, const ContactsView &set, int i, bool shares,
                       const Springs &old, int n_old)

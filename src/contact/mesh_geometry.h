@@ -14,7 +14,8 @@ class MeshGeometry {
  public:
   LSDCD_FN MeshGeometry(const GridView &grid, const Vec3 &q) : grid_(grid), q_(q) {}
 
-  // Closest points that are closer than kSamePoint times this (length) count as one.
+  // Returns the tolerance: closest points that are closer to each other than kSamePoint times this
+  // (length) count as one.
   LSDCD_FN static Real tolerance(const GridView &grid) { return grid.tolerance; }
   LSDCD_FN Real tolerance() const { return grid_.tolerance; }
 
@@ -23,7 +24,7 @@ class MeshGeometry {
   {
     return closest_point_on(grid_.wall, code, q_, grid_.tolerance, within, copy);
   }
-  // On a CPU: prefetches the records of n entries of a large wall, from the first on.
+  // Prefetches, on a CPU, the records of n entries of a large wall, starting with the first.
   LSDCD_FN static void prefetch([[maybe_unused]] const GridView &grid,
                                 [[maybe_unused]] const PackedEntries &entries,
                                 [[maybe_unused]] std::uint32_t first,
@@ -34,7 +35,8 @@ class MeshGeometry {
       lsdcd::prefetch(grid.wall, entries.feature(entries[first + i]));
 #endif
   }
-  // Could there be a closest point if the tolerance were larger by `more` (length)?
+  // Returns whether the feature could have a closest point if the tolerance were larger by `more`
+  // (length).
   LSDCD_FN bool may_be_closest(FeatureCode code, Real within, Real more) const
   {
     return lsdcd::may_be_closest(grid_.wall, code, q_, grid_.tolerance + more, within);

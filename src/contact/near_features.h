@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The features of a mesh near a place, for a grain that stays near it.
+// The features of a mesh near a place, kept for a grain that stays near it.
 #pragma once
 
 #include "base/vec3.h"
@@ -12,32 +12,33 @@
 
 namespace lsdcd {
 
-// Faces by their planes, and those edges and vertices of which all faces are among them, or which have none. An edge within a
-// flat patch, and a vertex within one, is left out: the minimum over a plane is not there alone.
+// Faces, sorted by their planes, and the edges and vertices whose faces are all among them, or that have no face. An edge or a
+// vertex inside a flat patch is left out, because the minimum over a plane is never at it alone.
 struct NearFeatures {
-  // The numbers of faces are of the planes before it and its own, so that they end there.
+  // A plane with its faces. The numbers of faces are counted over the planes up to and including this one, so they say where
+  // its faces end.
   struct Plane {
     Vec3 normal, point;
     Vec3 lo, hi;    // of the box around its faces
     std::uint32_t rim_end, inner_end;
-    // The face that had the minimum, and its place if it is one of the rim; they change the time alone.
+    // The face that had the minimum, and its place if it is a face of the rim. They change only the time.
     std::uint32_t likely, likely_rim;
   };
-  // A face with an edge or vertex that is listed. Numbers are places in the lists below; that of one that is not in them is the
-  // size of its list.
+  // A face with an edge or vertex that is listed. Its edges and vertices are places in the lists below; one that is not listed
+  // has the size of the list as its place.
   struct RimFace {
     std::uint32_t primitive;    // of the tree
     std::uint32_t plane;
     std::uint32_t edge[3], vertex[3];
   };
-  // A face of the rim, and the side or corner of it that an edge or vertex is.
+  // A face of the rim, and which side or corner of it an edge or vertex is.
   struct PartOfFace {
     std::uint32_t rim, k;
   };
-  // Those of all edges, or of all vertices that can have a contact, one after the other.
+  // The faces at all edges, or at all vertices that can have a contact, one after the other.
   struct FacesAt {
     std::vector<PartOfFace> parts;
-    std::vector<std::uint32_t> end;    // of each one's
+    std::vector<std::uint32_t> end;    // end of the faces of each edge or vertex
 
     std::size_t begin_of(std::size_t i) const { return i > 0 ? end[i - 1] : 0; }
     void clear()
@@ -51,18 +52,18 @@ struct NearFeatures {
     }
   };
   struct Edge {
-    std::uint32_t edge, vertex[2];    // of the mesh, and places in the list of vertices
-    bool is_likely;    // it was a contact when it was last looked at; it changes the time alone
+    std::uint32_t edge, vertex[2];    // number in the mesh, and places in the list of vertices
+    bool is_likely;    // it was a contact when it was last tested; it changes only the time
   };
   std::vector<Plane> planes;
   std::vector<RimFace> rim;
-  std::vector<std::uint32_t> inner;    // other faces, primitives of the tree
+  std::vector<std::uint32_t> inner;    // other faces, as primitives of the tree
   std::vector<Edge> edges;
-  // Of the mesh: the first n_whole can have a contact, others are only ends of edges.
+  // Vertices of the mesh: the first n_whole can have a contact, the others are only ends of edges.
   std::vector<std::uint32_t> vertices;
   std::size_t n_whole = 0;
   FacesAt faces_at_edge, faces_at_vertex;
-  std::vector<std::uint32_t> bare;    // primitives that are edges and vertices without a face
+  std::vector<std::uint32_t> bare;    // primitives that are edges or vertices without a face
 
   std::uint32_t rim_begin(std::size_t plane) const
   {

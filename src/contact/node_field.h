@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A mesh whose nodes move: the shares of the nodes of a feature in one of its points, and the velocity there.
+// The shares of a feature's nodes in one of its points, and the velocity there, for a mesh whose nodes move.
 #pragma once
 
 #include "contact/history.h"
@@ -12,11 +12,11 @@ namespace lsdcd {
 struct NodeField {
   const Vec3 *velocity = nullptr;    // length/time; null: the nodes of this mesh do not move
   const Vec3 *spin = nullptr;        // 1/time
-  Real going = 0;    // length; how far the nodes go before candidates are chosen again
+  Real going = 0;                    // length; how far nodes move before the next candidate search
 };
 
-// The nodes of a feature and their shares in a point of it. The shares add up to 1, and the nodes' places with
-// these shares to the point: they are its barycentric coordinates.
+// The nodes of a feature and their shares in a point of it: the barycentric coordinates of the point. They add up
+// to 1.
 struct NodeShares {
   int n;
   std::int32_t node[3];
@@ -28,7 +28,7 @@ LSDCD_FN NodeShares node_shares(const MeshFeaturesView &wall, FeatureCode featur
   const std::uint32_t i = feature_index(feature);
   switch (feature_kind(feature)) {
     case FeatureKind::face: {
-      // The distance from an edge over that of the corner across from it.
+      // The share is the distance from an edge over the distance of the opposite corner from that edge.
       const FaceRecord &face = wall.faces[i];
       const FaceVertices &corner = wall.face_vertex[i];
       const Vec3 d = at - face.anchor;
@@ -48,7 +48,7 @@ LSDCD_FN NodeShares node_shares(const MeshFeaturesView &wall, FeatureCode featur
   }
 }
 
-// Returns the nodes of a feature with shares that node_shares() has returned for it.
+// Returns the nodes of a feature with shares that an earlier call of node_shares() has returned for it.
 LSDCD_FN NodeShares shares_again(const MeshFeaturesView &wall, FeatureCode feature,
                                  const Real (&share)[3])
 {
@@ -57,12 +57,12 @@ LSDCD_FN NodeShares shares_again(const MeshFeaturesView &wall, FeatureCode featu
   return at;
 }
 
-// Returns the value of a field there. Where all nodes have the same it is exactly that.
+// Returns the value of a field at the point. If all nodes have the same value, it is exactly that.
 LSDCD_FN Vec3 field_at(const NodeShares &at, const Vec3 *field)
 {
   const Vec3 first = field[at.node[0]];
   Vec3 value = first;
-  for (int k = 1; k < 3; k++)    // of a known number, so that a GPU has the shares in registers
+  for (int k = 1; k < 3; k++)    // a fixed number, so that a GPU has the shares in registers
     if (k < at.n) value += at.share[k] * (field[at.node[k]] - first);
   return value;
 }

@@ -9,19 +9,18 @@
 
 namespace lsdcd {
 
-// The tolerance lets two features answer at a seam. Their closest points are then at most this
-// many tolerances apart, as each is off by at most two.
+// Because of the tolerance two features may both have a contact at a seam. Their closest points are then at most this many tolerances
+// apart, as each is off by at most two.
 constexpr Real kSamePoint = 4;
 
-// Is this the way between two closest points of one contact? Lengths.
+// Returns whether two closest points with this difference belong to one contact. Lengths.
 LSDCD_FN bool is_same_point(const Vec3 &apart, Real tolerance)
 {
   return !(norm_sq(apart) > kSamePoint * kSamePoint * tolerance * tolerance);
 }
 
-// Adds a contact unless the set already has one at the same point of the wall. Then the
-// nearer one stays, or the lower feature, whatever the order. A closest point between two
-// others merges all three.
+// Adds a contact unless the set already has one at the same point of the wall. In that case the nearer one stays, or at equal distances
+// the one on the lower feature, whatever the order. A closest point between two others merges all three.
 template <int kMost>
 LSDCD_FN void add_once(ContactSet<kMost> &set, FeatureCode feature, const ClosestPoint &closest,
                        Real tolerance)
@@ -62,8 +61,8 @@ LSDCD_FN void add_feature(const MeshGeometry &geometry, FeatureCode feature, Rea
     add_once(set, feature, closest, geometry.tolerance());
 }
 
-// Does what add_feature() does, as a function of its own, for searches that few spheres need: the tests of features are
-// long, and would be compiled into each law's kernels many times.
+// Does the same as add_feature(), as a function of its own, for searches that few spheres need: the tests of features are long, and would
+// otherwise be compiled many times into the kernels of each law.
 template <int kMost>
 LSDCD_NOINLINE void add_feature_noinline(const MeshGeometry &geometry, FeatureCode feature,
                                          Real radius, ContactSet<kMost> &set,
@@ -72,10 +71,10 @@ LSDCD_NOINLINE void add_feature_noinline(const MeshGeometry &geometry, FeatureCo
   add_feature(geometry, feature, radius, set, copy);
 }
 
-// A point over a face.
+// The position of a point over a face.
 struct OverFace {
-  Real height, side[3];    // signed distances from its plane and its sides
-  Real least;              // of those from its sides
+  Real height, side[3];    // signed distances from the plane and the sides of the face
+  Real least;              // the least of the distances from its sides
 
   LSDCD_FN OverFace(const FaceRecord &f, const Vec3 &q)
   {
@@ -87,8 +86,8 @@ struct OverFace {
     least = side[0] < side[1] ? side[0] : side[1];
     if (side[2] < least) least = side[2];
   }
-  // Is the face surely farther than this? Past a side its distance is at least that in the plane of height and side. The
-  // factor covers rounding.
+  // Returns whether the face is surely farther away than `within`. Past a side its distance is at least that in the plane of height and
+  // side. The factor covers rounding.
   LSDCD_FN bool is_past(Real within) const
   {
     const Real past = least < 0 ? least : 0;
@@ -96,10 +95,10 @@ struct OverFace {
   }
 };
 
-// Returns what of a face at whose rim or past which q is can have a contact, by the point over the face alone: bit k is edge k, bit
-// 3 + k vertex k, bit 6 the face. A vertex is at least as far as the lines of its two edges. An edge has a contact only where q is
-// past its side and between its ends, a vertex only where q is behind it along both edges; some tolerances cover the
-// rounding between these tests and those of closest_point.h.
+// Returns which parts of a face can have a contact, for a point q at its rim or past it, from OverFace alone: bit k is edge k, bit 3 + k
+// vertex k, bit 6 the face. A vertex is at least as far away as the lines of its two edges. An edge has a contact only if q is past its
+// side and between its ends, and a vertex only if q is behind it along both edges. A few tolerances cover the rounding between these
+// tests and those of closest_point.h.
 LSDCD_FN unsigned parts_in_reach(const FaceRecord &face, const OverFace &over, Real cutoff,
                                  Real tolerance)
 {
@@ -109,7 +108,7 @@ LSDCD_FN unsigned parts_in_reach(const FaceRecord &face, const OverFace &over, R
   for (int k = 0; k < 3; k++) {
     const int last = (k + 2) % 3;    // the edge that ends at vertex k, where edge k begins
     const Real c = dot(face.inward[k], face.inward[last]),
-               // How far q is from vertex k along these edges, times the sine of their angle.
+               // The distance of q from vertex k along these edges, times the sine of their angle.
         along = over.side[last] - c * over.side[k], along_last = over.side[k] - c * over.side[last];
     is_near[k] = over.side[k] * over.side[k] <= beside_sq;
     before[k] = along < -some;
@@ -125,7 +124,8 @@ LSDCD_FN unsigned parts_in_reach(const FaceRecord &face, const OverFace &over, R
   return parts;
 }
 
-// Adds the contacts of these parts of a face. Where q is over the inside of a face, `inside`, or kNoFeature, that face's edges have none.
+// Adds the contacts of these parts of a face. `inside`: a face whose inside q is over, and whose edges therefore have no contact, or
+// kNoFeature.
 template <int kMost>
 LSDCD_NOINLINE void add_rim(const GridView &grid, FeatureCode face, unsigned in_reach,
                             FeatureCode inside, const Vec3 &q, Real cutoff, ContactSet<kMost> &set)
@@ -149,9 +149,9 @@ LSDCD_NOINLINE void add_rim(const GridView &grid, FeatureCode face, unsigned in_
   if (in_reach & 64) add_feature_noinline(geometry, face, cutoff, set);
 }
 
-// Adds the contact of a face where q is over its inside, and says so in `inside` where q is by more than rounding. Else returns what
-// else of the face can have one, as parts_in_reach() does: 0 where it has none. The record of the face alone tells it, for most
-// that they are too far.
+// Adds the contact of a face if q is over its inside, and writes the face to `inside` if q is there by more than rounding. Otherwise
+// returns which other parts of the face can have a contact, as parts_in_reach() does; 0 if none can. Only the record of the face is read,
+// which for most faces shows that they are too far away.
 template <int kMost>
 LSDCD_FN unsigned add_inside(const GridView &grid, FeatureCode code, const Vec3 &q, Real cutoff,
                              FeatureCode &inside, ContactSet<kMost> &set)
@@ -167,8 +167,8 @@ LSDCD_FN unsigned add_inside(const GridView &grid, FeatureCode code, const Vec3 
   return 0;
 }
 
-// Adds the contacts of a face and its edges and vertices, or of a lone edge or vertex. Over the inside of a face only the face
-// is near.
+// Adds the contacts of a face with its edges and vertices, or of a lone edge or vertex. If q is over the inside of a face, only the face
+// has a contact.
 template <int kMost>
 LSDCD_NOINLINE void add_primitive(const GridView &grid, FeatureCode primitive, const Vec3 &q,
                                   Real cutoff, ContactSet<kMost> &set)

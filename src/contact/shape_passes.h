@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How deep a grain that is no sphere is in a mesh on the way from one of its contacts to another one, on a CPU.
+// Finds how deep a grain that is no sphere is in a mesh along the way from one of its contacts to another, on a CPU.
 #pragma once
 
 #include "contact/shape_search.h"
@@ -13,31 +13,33 @@
 
 namespace lsdcd {
 
-// A contact, as a place from or to which passes go.
+// A contact as an end of a pass.
 struct PassEnd {
   FeatureCode feature;
   Real overlap;
-  Vec3 normal, point;    // of the grain's surface, in its frame: unit and outwards
+  Vec3 normal, point;    // of the grain's surface, in its frame; the normal is unit, outwards
 };
 
-// Finds passes: the pass of two contacts is the largest, over all chains of faces joined at edges from a face of one contact to a
-// face of the other, of the least overlap of the edges crossed. The overlap of an edge is the largest on it.
+// Finds passes. The pass of two contacts is a largest least overlap: among all chains of faces that are joined at edges, from a face of
+// one contact to a face of the other, the chain counts whose crossed edges have the largest least overlap. The overlap of an edge is the
+// largest one on it.
 class ShapePasses {
  public:
   explicit ShapePasses(const TriangleTree &tree) : view_(tree.view()) {}
 
-  // Begins with another grain, and all its contacts with the mesh.
+  // Begins with another grain, and takes all of its contacts with the mesh.
   void begin(const PlacedGrain &grain, const std::vector<PassEnd> &contacts);
-  // Returns the pass of contact `from` and each other one if it is deeper than `above` >= 0, else 0. They are valid until the next call.
+  // Returns the pass of contact `from` and each other contact if it is deeper than `above` >= 0, else 0. The result is valid until the
+  // next call.
   const std::vector<Real> &find(std::size_t from, Real above);
 
  private:
-  // Numbers by a key that are forgotten at once.
+  // Values by key, all of which can be forgotten at once.
   template <class Value>
   class Notes {
    public:
     void clear() { age_++, n_ = 0; }
-    // Returns the note of a key, and whether it is new: then the value is of no meaning.
+    // Returns the value of a key, and whether it is new; a new value is undefined.
     Value &at(std::uint32_t key, bool &is_new)
     {
       if (2 * (n_ + 1) > slots_.size()) grow();
@@ -77,7 +79,7 @@ class ShapePasses {
     std::uint32_t edge;
   };
   struct EdgeOverlap {
-    Real overlap;    // of no meaning where it is not above the next number
+    Real overlap;    // undefined if it is not above the next number
     Real above;
   };
   struct FaceOfContact {
@@ -87,7 +89,7 @@ class ShapePasses {
 
   struct Tangent {
     Vec3 normal;
-    Real height;    // of the plane over the centre
+    Real height;    // of the plane, over the centre
   };
 
   void list_faces();
@@ -98,7 +100,7 @@ class ShapePasses {
   const TreeView &view_;
   PlacedGrain grain_;
   std::vector<PassEnd> contacts_;
-  std::vector<Tangent> tangents_;    // of the contacts, and one between them
+  std::vector<Tangent> tangents_;    // of the contacts, and one between two of them
   Notes<EdgeOverlap> overlap_;       // of edges
   Notes<char> reached_;              // faces
   std::vector<Crossing> waiting_;    // a heap

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The contacts of a grain that is no sphere with a mesh, and the nearest place of it, on a CPU: the local minima of the signed
-// distance from the grain over the surface.
+// Finds the contacts of a grain that is no sphere with a mesh, and the place of the mesh that is nearest to it, on a CPU. Contacts are the
+// local minima over the surface of the signed distance from the grain.
 #pragma once
 
 #include "contact/near_features.h"
@@ -20,7 +20,7 @@
 
 namespace lsdcd {
 
-// A grain where it is.
+// A grain in its place.
 struct PlacedGrain {
   Superellipsoid shape;
   Vec3 centre, row[3];    // rows of the matrix that turns its axes to where they are
@@ -38,14 +38,14 @@ struct ShapeContact {
   Real distance = std::numeric_limits<Real>::infinity();    // signed; -distance is the overlap
 };
 
-// Returns the signed distance of a point in the grain's frame; InputError where it was not found to rounding.
+// Returns the signed distance of a point in the grain's frame. Throws InputError if it was not found to rounding.
 Real sure_distance(const Superellipsoid &s, const Vec3 &y);
 
-// Can a segment, in the grain's frame, cut the part of the grain that is deeper than `depth`? Exact for an ellipsoid and a depth of 0; of another grain
-// few segments close beside it can, too.
+// Returns whether a segment, in the grain's frame, can cut the part of the grain that is deeper than `depth`. Exact for an ellipsoid and a
+// depth of 0; for other grains also true for a few segments that pass close by.
 bool may_cut(const Superellipsoid &s, const Vec3 &from, const Vec3 &to, Real depth = 0);
 
-// Calls visit() for each face at a feature, more than once for some of a vertex.
+// Calls visit() for each face at a feature; for a vertex some faces are visited more than once.
 template <class Visit>
 void each_face(const TreeView &view, FeatureCode feature, const Visit &visit)
 {
@@ -59,7 +59,7 @@ void each_face(const TreeView &view, FeatureCode feature, const Visit &visit)
     of_edge(view.vertex_edge[k]);
 }
 
-// Searches a mesh for one grain after the other.
+// Searches a mesh for one grain after another.
 class ShapeSearch {
  public:
   explicit ShapeSearch(const TriangleTree &tree) :
@@ -69,11 +69,11 @@ class ShapeSearch {
 
   // Adds the contacts of a grain to `found`, in the order of their features.
   void contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found);
-  // The same, where all that the sphere around the grain reaches is `near`.
+  // Does the same, with `near` as all features that the sphere around the grain reaches.
   void contacts(const PlacedGrain &grain, NearFeatures &near, std::vector<ShapeContact> &found);
-  // Makes `near` what is within `radius` of a grain's centre.
+  // Sets `near` to all features within `radius` of the grain's centre.
   void find_near(const PlacedGrain &grain, Real radius, NearFeatures &near);
-  // Returns the nearest place of the mesh; of no feature where the grain's centre is no number.
+  // Returns the nearest place of the mesh; it has no feature if the grain's centre is not a number.
   ShapeContact nearest(const PlacedGrain &grain);
 
  private:
@@ -84,32 +84,33 @@ class ShapeSearch {
     std::uint32_t primitive;
   };
 
-  // Can a feature of a list be a contact, is it one, or has it to be found by triangles unless a face at it has another?
+  // The state of a listed feature: it can be no contact; it may be one; it is one; or it is deep, and triangles must be searched unless a
+  // face at it has another contact.
   enum class State : char { cannot_be, may_be, is, is_deep };
   using Inwards = std::array<Real, 3>;
-  // Where the grain is to a plane: it does not reach it; its overlap is less than the least radius of curvature, or counts as such, as
-  // its foot is in a face; it is deep.
+  // The position of a grain relative to a plane: it does not reach the plane; its overlap is less than the least radius of curvature, or
+  // counts as such because its foot is in a face; or it is deep.
   enum class Side : char { out_of_reach, in_reach, is_deep };
   struct AtPlane {
     Side side;
-    bool is_owned;    // it has the foot of its deep minimum in a face
+    bool is_owned;    // the foot of its deep minimum is in a face
     Real towards;     // 1, or -1 where the grain is on the front
     Vec3 arm;         // to the grain's point
   };
-  // A face of which the tangent plane need not be the minimum.
+  // A face whose minimum may differ from that of its tangent plane.
   struct DeepFace {
     std::uint32_t primitive;
     const NearFeatures::Plane *plane;
-    const NearFeatures::RimFace *rim;    // null: it is none
+    const NearFeatures::RimFace *rim;    // null: it is no rim face
   };
   struct EdgeOfGrain {
-    Vec3 from, to;    // in its frame
+    Vec3 from, to;    // in the grain's frame
   };
-  // Of the line of an edge.
+  // The minimum on the line of an edge.
   struct EdgeMinimum {
     TangentMinimum line;
     Vec3 along;
-    Real length, at;    // where its foot is, from the begin of the edge
+    Real length, at;    // where its foot is, from the beginning of the edge
     bool is_here;
   };
   struct LookedAt {
@@ -117,7 +118,7 @@ class ShapeSearch {
     EdgeMinimum minimum;
   };
   struct Line {
-    Vec3 from, along, foot;    // of its minimum
+    Vec3 from, along, foot;    // place of its minimum
   };
 
   bool is_flat(std::uint32_t edge) const;
@@ -183,24 +184,24 @@ class ShapeSearch {
   const TreeView &view_;
   const std::vector<std::uint32_t> &patches_;
   NearFeatures near_;
-  std::vector<std::uint32_t> faces_, numbers_, whole_;    // of a list that is made
+  std::vector<std::uint32_t> faces_, numbers_, whole_;    // faces of a list that is being made
   std::vector<Vec3> own_, scaled_;    // vertices in the grain's frame, and over its half-axes
   std::vector<State> edge_, vertex_;
   enum class Cut : char { no, yes, not_asked };
-  std::vector<Cut> cut_;    // of edges: may the grain cut it?
+  std::vector<Cut> cut_;    // for each edge: may the grain cut it?
   std::vector<DeepFace> deep_;
-  // Has an edge been passed where the overlap is not less than the least radius of curvature?
+  // Has an edge been passed at which the overlap is not less than the least radius of curvature?
   bool passed_deep_ = false;
   std::vector<AtPlane> planes_;
   std::vector<Line> lines_;
-  std::vector<LookedAt> looked_at_;    // edges that have to be looked at once more
+  std::vector<LookedAt> looked_at_;    // edges that have to be tested once more
   std::vector<Minimum> minima_, local_;
-  std::vector<std::uint32_t> piece_;    // of each of minima_, another one of its piece, or itself
+  std::vector<std::uint32_t> piece_;    // for each of minima_: another one of its piece, or itself
   std::vector<std::pair<FeatureCode, std::uint32_t>>
       shared_;                              // with the minimum of a primitive at it
-  std::vector<const Minimum *> deepest_;    // of pieces, as are the next
+  std::vector<const Minimum *> deepest_;    // of pieces, as are the next ones
   std::vector<char> has_contact_;
-  std::vector<std::size_t> same_as_;    // of local_
+  std::vector<std::size_t> same_as_;    // index into local_
   mutable std::vector<int> around_;
 };
 

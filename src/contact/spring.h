@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One tangential spring and where it sits.
+// A tangential spring and its place.
 #pragma once
 
 #include "base/strided_view.h"
@@ -16,10 +16,10 @@ struct Spring {
   Vec3 shear;     // length; lies in the contact's tangent plane, in the frame of the mesh
   Vec3 normal;    // unit, wall -> centre, when the spring was last moved
   FeatureCode feature;
-  std::uint32_t mesh;    // of the wall: the mesh of the feature and of the frame
+  std::uint32_t mesh;    // number of the mesh in the wall, for the feature and the frame
 };
 
-// Mesh and feature as one double: 53 bits are exact.
+// Returns mesh and feature as one double: 53 bits are exact.
 LSDCD_FN double packed_location(const Spring &s)
 {
   return 4294967296. * s.mesh + s.feature;
@@ -31,7 +31,8 @@ LSDCD_FN void unpack_location(double packed, Spring &s)
   s.mesh = static_cast<std::uint32_t>(place >> 32);
 }
 
-// A spring as numbers, for exchange and restart files: its place, normal and shear displacement. Both return the place behind.
+// A spring as numbers, for exchange and restart files: its place, normal and shear displacement. Both functions return the
+// place after it.
 constexpr int kPackedSpring = 7;
 LSDCD_FN double *pack_spring(const Spring &s, double *to)
 {
@@ -48,8 +49,8 @@ LSDCD_FN const double *unpack_spring(const double *from, Spring &s)
   return from;
 }
 
-// The springs of many spheres, on the CPU or on a device: those of sphere i are
-// pool[first[i]] .. pool[first[i] + count[i] - 1], with further numbers beside them.
+// The springs of many spheres, on the CPU or on a device. Those of sphere i are pool[first[i]] .. pool[first[i] + count[i] -
+// 1]; further numbers lie beside them.
 struct SpringsView {
   Column<const int> first, count;
   const Spring *pool;

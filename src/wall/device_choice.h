@@ -15,8 +15,7 @@ namespace lsdcd {
 class DeviceChoice {
  public:
   DeviceChoice() = default;
-  // `gpus`: GPUs of this node, on which `processes` run. If a device was asked for, that one is used; without a GPU
-  // the CPU is used.
+  // `gpus`: GPUs of this node, on which `processes` run. If a device was asked for, or if there is no GPU, `asked` stays.
   DeviceChoice(Device asked, int gpus, int processes);
 
   bool is_open() const { return least_ > 0; }
