@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The spheres of a step, and a mesh whose nodes move, as their host has them.
+// The spheres of a step, and of a mesh whose nodes move, as their host has them.
 #pragma once
 
 #include "base/quaternion.h"
@@ -10,20 +10,20 @@
 
 namespace lsdcd {
 
-// Arrays of a host that has them in float; pointers are to the memory of the engine's backend. Units as in Spheres.
+// Arrays of a host that has them in float. Pointers are to the memory of the engine's backend. Units as in Spheres.
 struct FloatSpheres {
   StridedView<const float> x, v, omega;
   const float *radius = nullptr, *mass = nullptr;
   StridedView<float> force,
-      torque;    // added to; null where the host sums forces in double, in those of Spheres
+      torque;    // added to; null if the host sums forces in double, in those of Spheres
 };
 
-// A grain that may be no sphere: a superellipsoid (shape/superellipsoid.h) and how it lies.
+// The shape of a grain that may be no sphere: a superellipsoid (shape/superellipsoid.h) and its orientation.
 struct GrainShape {
   Vec3 half = {0, 0, 0};    // half-axes, length; all 0: it is a sphere
   Real n1 = 2, n2 = 2;      // exponents
   Quaternion turn;          // from its axes to the box
-  // About its axes, by its own mass, also where Spheres::mass is that of a rigid body; length^2.
+  // Moments of inertia about its axes over its own mass, even if Spheres::mass is that of a rigid body; length^2.
   Vec3 inertia_over_mass = {0, 0, 0};
 
   bool is_sphere() const { return half.x == 0; }
@@ -37,16 +37,17 @@ struct Spheres {
   StridedView<const Real> omega;    // 1/time
   const Real *radius = nullptr;     // length
   const Real *mass = nullptr;       // mass that damping sees (a rigid member's body mass)
-  const int *mask = nullptr;        // group bits, or null: all spheres
+  const int *mask = nullptr;        // group bits; null: all spheres belong to the group
   int group_bit = 0;
-  const int *type = nullptr;            // from 1; read where laws differ by it
+  const int *type = nullptr;            // from 1; read if laws differ by it
   StridedView<Real> force;              // added to
   StridedView<Real> torque;             // added to
-  const Real *temperature = nullptr;    // where the law has heat
-  Real *heat_flow = nullptr;            // power; added to where the law has heat
-  // With HostArrays::in_float, in place of x, v, omega and radius, of mass where that is null, and of force and torque.
+  const Real *temperature = nullptr;    // read if the law has heat
+  Real *heat_flow = nullptr;            // power; added to if the law has heat
+  // Used with HostArrays::in_float, instead of x, v, omega, radius, force and torque, and of mass if that is null.
   const FloatSpheres *in_float = nullptr;
-  // Where laws are for shapes; null: all are spheres. The radius of another grain is that of a sphere around it.
+  // Used if laws are for shapes; null: all grains are spheres. The radius of a grain that is no sphere is that of a
+  // sphere around it.
   const GrainShape *shapes = nullptr;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The broad phase: the candidate spheres of all meshes of a wall, and their lists of features.
+// The broad phase: finds the candidate spheres of all meshes of a wall, and makes their lists of features.
 #pragma once
 
 #include "backend/backend.h"
@@ -16,13 +16,13 @@
 
 namespace lsdcd {
 
-// How candidates of a mesh are chosen; see CandidateTest.
+// The input of a candidate search at one mesh; see CandidateTest.
 struct CandidateChoice {
   Spheres spheres;
   Real margin, pull_off;
   StepCounts *counts;
   int *n_springs;
-  const SpringsView *last;    // null: nothing closes contacts
+  const SpringsView *last;    // the springs of the last step; null: there are no contacts to close
   std::uint32_t mesh;
 };
 
@@ -31,8 +31,8 @@ class CandidateSelector {
  public:
   const int *data() const { return candidates_.data(); }
 
-  // Selects the spheres that could touch the mesh after moving by up to the margin: by its cells and, where cells list
-  // all within the cutoff, by the features of these. Kernels put the number into the counts.
+  // Finds the spheres that could touch the mesh after moving by up to the margin: by the mesh's cells and, if cells list all
+  // features within the cutoff, by these features. Kernels put the number of candidates into the counts.
   void choose(B &b, const EngineMesh<B> &mesh, const CandidateChoice &choice)
   {
     candidates_.reserve(choice.spheres.n);
@@ -66,7 +66,7 @@ class CandidateSelector {
   Selection<B> selection_;
 };
 
-// `counts`: one StepCounts in the memory of kernels. A StepCounts that is returned is its copy.
+// `counts`: one StepCounts in the memory of kernels. A StepCounts that is returned is a copy of it.
 template <class B>
 class BroadPhase {
   template <class T>
@@ -84,7 +84,7 @@ class BroadPhase {
     meshes_.at(mesh).grid = GridOn<B>(b, grid);
     n_ = 0;
   }
-  // Other lists for the same wall, in memory of the backend that is the caller's.
+  // Sets other lists for the same wall, which are in the caller's memory, on this backend.
   void set_lists(B &b, const GridView &grid, int mesh)
   {
     meshes_.at(mesh).grid.set_lists(b, grid);
@@ -92,13 +92,13 @@ class BroadPhase {
   }
   void place(const Pose &pose, int mesh) { meshes_.at(mesh).pose = pose; }
 
-  bool uses_slots() const { return uses_slots_; }    // meshes, or kinds of spheres
+  bool uses_slots() const { return uses_slots_; }    // more than one mesh, or kind of spheres
   int n_meshes() const { return static_cast<int>(meshes_.size()); }
   const EngineMesh<B> &mesh(int m) const { return meshes_[m]; }
 
-  // Selects candidates among spheres in memory of the backend, and makes their lists. With one mesh
-  // `n_springs` of other spheres becomes 0. `last`: null, or of the last step, whose contacts are closed. Where a sphere is too
-  // large, too_large is set in the counts returned and nothing else is valid.
+  // Searches for candidates among spheres in memory of the backend, and makes their lists. With one mesh `n_springs` of all
+  // other spheres becomes 0. `last`: the springs of the last step, whose contacts are closed; or null. If a sphere is too
+  // large, the returned counts have too_large set, and nothing else is valid.
   StepCounts choose(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts,
                     int *n_springs, const SpringsView *last)
   {
@@ -109,7 +109,7 @@ class BroadPhase {
                      {spheres, margin, pull_off_, counts.data(), n_springs, last, 0});
     b.copy_out(counts.data(), counts_on_cpu_.data(), 1);
     counted_.record(b);
-    // A GPU need not wait until the CPU knows how many there are.
+    // The lists are started before the CPU knows how many candidates there are, so that a GPU need not wait.
     candidates.index = selector_.data();
     const std::size_t early =
         lists_.make_early(b, grid, meshes_[0].pose, candidates, margin, counts.data());
@@ -120,14 +120,14 @@ class BroadPhase {
     lists_.make(b, grid, meshes_[0].pose, candidates, margin, counts.data(), early);
     return seen;
   }
-  std::size_t n() const { return n_; }    // candidates, or slots
+  std::size_t n() const { return n_; }    // candidates, or candidate-mesh pairs (slots)
   const int *candidates() const { return uses_slots() ? slots_.sphere() : selector_.data(); }
-  // For each candidate: does it seem to touch more than one feature now? Null: not known.
+  // Returns, for each candidate, whether it seems to touch more than one feature now. Null: not known.
   const char *seem_multi_contact() const { return uses_slots() ? nullptr : lists_.multi_contact(); }
   const FeatureLists &lists() const { return lists_.view(); }
   const CandidateSlots<B> &slots() const { return slots_; }
 
-  // Returns the law of each of these spheres.
+  // Returns the kind of each of these spheres, which says which laws it has.
   SphereKinds kinds_of(B &b, const Spheres &spheres)
   {
     if (laws_.kinds == 1) return {};
@@ -137,7 +137,7 @@ class BroadPhase {
   }
   int n_kinds() const { return laws_.kinds; }
 
-  // See DisplacementCheck.
+  // Stores positions for has_moved(); see DisplacementCheck.
   void store_positions(B &b, const Spheres &spheres, Real margin)
   {
     displacement_.store(b, spheres, meshes_, margin);
@@ -157,7 +157,7 @@ class BroadPhase {
   }
 
  private:
-  // These do not wait.
+  // The following functions do not wait.
   const int *put_kinds(B &b)
   {
     const std::size_t n = laws_.kind_of_type.size();
@@ -211,7 +211,7 @@ class BroadPhase {
   std::size_t n_ = 0;
   typename B::template CpuArray<StepCounts> counts_on_cpu_ =
       typename B::template CpuArray<StepCounts>(1);
-  typename B::Event counted_;    // once they are in counts_on_cpu_
+  typename B::Event counted_;    // the counts are in counts_on_cpu_
   DisplacementCheck<B> displacement_;
 };
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Candidate spheres of a wall of more than one mesh, or with laws by type, sorted into slots: first
-// candidates of one mesh only, mesh after mesh and kind after kind, then multi-mesh spheres, which are
-// candidates of more than one mesh, with a slot for each (sphere, mesh).
+// The candidates of a wall of more than one mesh, or with laws by type, sorted into candidate-mesh pairs,
+// which the code calls slots. First come the candidates of a single mesh, mesh after mesh and kind after
+// kind. Then come multi-mesh spheres, which are candidates of more than one mesh and have a slot for each
+// (sphere, mesh).
 #pragma once
 
 #include "base/countable.h"
@@ -27,7 +28,7 @@ LSDCD_FN bool is_single(MeshSet set)
   return (set & (set - 1)) == 0;
 }
 
-// Flags candidates of one mesh only and of this kind.
+// Flags candidates of this kind that are near this mesh only.
 struct FlagSingle {
   const int *found;
   const MeshSet *set;
@@ -40,7 +41,7 @@ struct FlagSingle {
     flags[k] = is_single(set[found[k]]) && kind[found[k]] == of_kind;
   }
 };
-// Flags multi-mesh spheres: one counts with the first of its meshes.
+// Flags multi-mesh spheres. Each is counted with the first of its meshes.
 struct FlagMultiMesh {
   const int *found;
   const MeshSet *set;
@@ -72,7 +73,7 @@ struct CountMeshes {
 };
 struct PutSlots {
   MultiMeshSlots to;
-  int begin;    // of all
+  int begin;    // of the slots of multi-mesh spheres among all slots
 
   LSDCD_FN void operator()(std::size_t g) const
   {
@@ -91,7 +92,7 @@ class CandidateSlots {
   using Array = typename B::template Array<T>;
 
  public:
-  // Begins for n spheres.
+  // Begins the search for n spheres.
   void clear(B &b, std::size_t n)
   {
     n_spheres_ = n;
@@ -101,7 +102,7 @@ class CandidateSlots {
     put_all(b, set_.data(), n, 0);
   }
 
-  // The n candidates of the next mesh.
+  // Adds the n candidates of the next mesh.
   void add(B &b, const int *candidates, std::size_t n)
   {
     const int mesh = static_cast<int>(end_.size());
@@ -116,7 +117,7 @@ class CandidateSlots {
     end_.push_back(n_found_);
   }
 
-  // Ends it: makes the slots. `kind`: of each sphere, in [0, kinds).
+  // Ends the search and makes the slots. `kind`: of each sphere, in [0, kinds).
   void finish(B &b, const SphereKinds &kind, int kinds)
   {
     kinds_ = kinds;
@@ -145,8 +146,8 @@ class CandidateSlots {
     if (n_multi_mesh_ > 0) make_multi_mesh_slots(b);
   }
 
-  // Slots [begin(m), begin(m + 1)) are of candidates of mesh m only, from begin(m, k) on those of kind k;
-  // those from begin(number of meshes) on are of multi_mesh spheres.
+  // Returns where slots begin. Slots [begin(m), begin(m + 1)) are of candidates of mesh m only; those of
+  // kind k start at begin(m, k). The slots of multi-mesh spheres start at begin(number of meshes).
   std::size_t begin(int mesh, int kind = 0) const { return begin_[mesh * kinds_ + kind]; }
   int n_meshes() const { return static_cast<int>(end_.size()); }
   std::size_t n_slots() const { return n_slots_; }
@@ -156,7 +157,7 @@ class CandidateSlots {
   const int *first() const
   {
     return first_.data();
-  }    // slot of each multi_mesh sphere, and the end
+  }    // first slot of each multi-mesh sphere, and the end
   const MeshSet *meshes_of() const { return set_.data(); }    // of each sphere
   std::size_t n_spheres() const { return n_spheres_; }
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The broad phase of one mesh: which spheres are candidates, as they could touch it after moving by at most a
-// margin. One test of all spheres, one of those in a brick of the grid, and one of those that are left by
-// cells. Selection runs them.
+// The broad phase of one mesh: which spheres are candidates, because they could touch it after moving by at most a margin. The first
+// test is made for all spheres, the second for those in a brick of the grid, and the third for those that pass the second, by cells.
+// Selection runs the tests.
 #pragma once
 
 #include "backend/atomic.h"
@@ -21,22 +21,22 @@ namespace lsdcd {
 template <class B>
 struct EngineMesh {
   GridOn<B> grid;
-  Pose pose, chosen;    // chosen: at the last choice
+  Pose pose, chosen;    // chosen: the pose at the last candidate search
 };
 
-// The same in kernels that make lists.
+// A grid with its pose, for kernels that make lists.
 struct PosedGrid {
   GridView grid;
   Pose pose;
 };
 
-// Returns the query for a sphere at x. No spring matters to the broad phase.
+// Returns the query for a sphere at x. Springs do not matter to the broad phase.
 LSDCD_FN QuerySphere query_sphere_at(const Pose &pose, const Vec3 &x, Real radius, Real pull_off)
 {
   return {pose.to_mesh(x), radius, cutoff_of(radius, pull_off), nullptr, 0};
 }
 
-// On a CPU: what a search of a large wall reads first for a sphere at x, whose turn comes soon.
+// Prefetches, on a CPU, what a search of a large wall reads first for a sphere at x, whose turn comes soon.
 LSDCD_FN void prefetch_search([[maybe_unused]] const GridView &grid,
                               [[maybe_unused]] const Pose &pose, [[maybe_unused]] const Vec3 &x)
 {
@@ -49,8 +49,8 @@ struct CandidateSpheres {
   StridedView<const Real> x;
   const Real *radius;
   Real pull_off;
-  const int *index;    // the sphere that candidate k is
-  std::size_t n;       // candidates; 0: nothing is prefetched
+  const int *index;    // the sphere of candidate k
+  std::size_t n;       // number of candidates; 0: nothing is prefetched
 
   LSDCD_FN QuerySphere in_frame_of(const Pose &pose, std::size_t k) const
   {
@@ -65,7 +65,7 @@ struct CandidateSpheres {
 };
 
 // kPast: do cells past the lists' own margin matter? kCloses: spheres that had contacts with the mesh in the last step are candidates
-// wherever they are now, as books of energy close these contacts.
+// wherever they are now, because the energy balance has to close these contacts.
 template <bool kPast, bool kCloses>
 struct CandidateTest {
   GridView grid;
@@ -75,9 +75,9 @@ struct CandidateTest {
   Pose pose;
   Real margin, past;     // lengths; past = margin - margin of the cells' lists, or 0
   Real pull_off;         // of the law, at a radius of 1
-  bool by_features;      // test the features that cells list, too
+  bool by_features;      // test the features that cells list, too?
   StepCounts *counts;    // too_large becomes the first sphere that reaches past the grid
-  int *n_springs;        // of each sphere, or null; becomes 0 for spheres that are no candidates
+  int *n_springs;        // of each sphere, or null; becomes 0 for spheres that are not candidates
   SpringsView last;      // of the last step; read where kCloses
   std::uint32_t mesh;
   std::uint32_t fixed_margin = 0;    // of the filter
@@ -97,7 +97,7 @@ struct CandidateTest {
     return !spheres.mask || (item.mask & spheres.group_bit);
   }
 
-  // Could it reach past the grid? check() finds out.
+  // Returns whether a sphere could reach past the grid. check() then decides.
   LSDCD_FN bool may_be_large(const Item &item) const
   {
     return in_group(item) && (pull_off > 0 || !(item.radius <= grid.cutoff));
@@ -112,14 +112,14 @@ struct CandidateTest {
   LSDCD_FN bool coarse_test(const Item &item, const Vec3 &x) const
   {
     const BrickGuess guess = filter.guess(pose.to_mesh(x));
-    // With a margin it is enough to look at one brick where no other is within the margin.
+    // With a margin it is enough to read one brick if no other is within the margin.
     const bool sure = !guess.unsure & (!kPast || (guess.inside && fixed_margin > 0 &&
                                                   filter.is_clear(guess, fixed_margin)));
     bool may = !sure;
     if (guess.inside & sure) may = table.at(filter.index(grid, guess));
     return may & in_group(item);
   }
-  // Tests the cells that a sphere at x may come to.
+  // Tests the cells to which a sphere at x may move.
   LSDCD_FN bool is_near(const Vec3 &x) const
   {
     const Vec3 q = pose.to_mesh(x);
@@ -135,10 +135,10 @@ struct CandidateTest {
     const QuerySphere s = query_sphere_at(pose, spheres.x[i], spheres.radius[i], pull_off);
     return can_touch(warp, mine, grid, s, margin);
   }
-  // On a CPU: what refine() of a large wall reads first.
+  // Prefetches, on a CPU, what refine() of a large wall reads first.
   LSDCD_FN void prefetch(const Vec3 &x) const { prefetch_search(grid, pose, x); }
 
-  // Is sphere i a candidate even if it cannot touch the mesh?
+  // Returns whether sphere i is a candidate even if it cannot touch the mesh.
   LSDCD_FN bool closes([[maybe_unused]] std::size_t i, [[maybe_unused]] const Item &item) const
   {
     if constexpr (kCloses) {
@@ -148,7 +148,7 @@ struct CandidateTest {
     }
     return false;
   }
-  // Notes that sphere i is no candidate.
+  // Notes that sphere i is not a candidate.
   LSDCD_FN void note_out(std::size_t i) const
   {
     if (n_springs) n_springs[i] = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Positions of spheres and meshes when candidates were chosen. The choice holds until a sphere that could
+// Stores the positions of spheres and meshes at a candidate search. Its candidates are valid until a sphere that could
 // touch a mesh has moved by more than the margin relative to it.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace lsdcd {
 
-// Could sphere i touch a mesh, and has it gone farther than the margin since the choice?
+// Returns whether sphere i could touch a mesh and has moved farther than the margin since the last candidate search.
 struct HasMoved {
   GridView grid;
   BrickTable table;
@@ -28,14 +28,14 @@ struct HasMoved {
   Real margin_sq;
   bool cells_first;
 
-  // Reading where it was costs a GPU more than looking for its cell, and a CPU less.
+  // Reading the old position costs a GPU more than finding the cell, and a CPU less.
   LSDCD_FN bool operator()(std::size_t i) const
   {
     const Vec3 q = pose.to_mesh(x[i]);
     if (cells_first && !may_touch(q)) return false;
     return !(norm_sq(q - chosen.to_mesh(was[i])) <= margin_sq) && (cells_first || may_touch(q));
   }
-  // A position that is no number may.
+  // Returns whether a sphere at q may touch the mesh. True if a coordinate is not a number.
   LSDCD_FN bool may_touch(const Vec3 &q) const
   {
     return occupied_cell(grid, table, q) != kNoCell || !(norm_sq(q) >= 0);
@@ -52,9 +52,9 @@ struct FlagMoved {
   }
 };
 
-// Does a number of a[0, n) differ from the one in the same place of b by `most` or more? Yes where one of them is no
-// number. It is written without a branch, so that compilers take several at once: the sign of |a - b| - most says it,
-// and that of a result that is no number is clear, as fabs() leaves it.
+// Returns whether a number of a[0, n) differs from that in the same place of b by `most` or more. True if one of them is
+// not a number. Written without a branch, so that compilers process several numbers at once: the sign of |a - b| - most
+// decides, and it is clear if the result is not a number, because fabs() clears it.
 inline bool any_differs(const Real *a, const Real *b, std::size_t n, Real most)
 {
   std::uint64_t all = ~std::uint64_t(0);
@@ -71,8 +71,8 @@ inline bool any_differs(const Real *a, const Real *b, std::size_t n, Real most)
 template <class B>
 class DisplacementCheck {
  public:
-  // Stores positions of spheres and poses of meshes. has_moved() later asks: has a sphere that could touch a
-  // mesh at that time moved by more than `margin` (length) relative to that mesh since now?
+  // Stores the positions of spheres and the poses of meshes. has_moved() later returns whether a sphere that could touch a
+  // mesh at that later time has moved by more than `margin` (length) relative to that mesh since now.
   void store(B &b, const Spheres &spheres, std::vector<EngineMesh<B>> &meshes, Real margin)
   {
     const std::size_t n = spheres.n;
@@ -107,17 +107,18 @@ class DisplacementCheck {
  private:
   bool holds_for_any(B &b, std::size_t n, const HasMoved &test)
   {
-    int *flag = flag_.data();    // kernels write this memory of the CPU
+    int *flag = flag_.data();    // kernels write to this memory of the CPU
     *flag = 0;
     b.for_each(n, FlagMoved{test, flag});
     b.wait();
     return *flag;
   }
 
-  // holds_for_any() on a CPU for meshes that stay where they are. It looks at every sphere in every step, so that it has to
-  // be cheap for nearly all of them: blocks in which no coordinate has changed by margin / sqrt(3) are done with one
-  // comparison of each. A sphere that has gone farther, and from which no mesh can be touched within the margin, is
-  // from now on compared with where it is: until it has gone the margin from there, it cannot touch one.
+  // Does the work of holds_for_any() on a CPU for meshes that stay where they are. It tests every sphere in every step, so
+  // it has to be cheap for nearly all of them: a block in which no coordinate has changed by margin / sqrt(3) needs only
+  // one comparison for each coordinate. A sphere that has moved farther, and cannot touch a mesh within the margin of where
+  // it is, is compared with its present position from now on: until it has moved by the margin from there, it cannot touch
+  // a mesh.
   bool any_at_meshes_that_stay(B &b, const Spheres &spheres, const std::vector<HasMoved> &tests)
   {
     constexpr std::size_t kBlock = 128;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The neighbour lists of candidate spheres: their features, in the memory of the engine's backend.
+// The neighbour lists of candidate spheres, which hold features, in the memory of the engine's backend.
 #pragma once
 
 #include "backend/atomic.h"
@@ -13,7 +13,8 @@
 
 namespace lsdcd {
 
-// Lists of meshes whose nodes move are made in steps (nodes/node_list.h): there is none yet of slot k.
+// Marks slot k as having no list yet, if the nodes of its mesh move: such lists are made in steps
+// (nodes/node_list.h).
 struct LeaveOut {
   const PosedGrid *meshes;
   const int *mesh;
@@ -50,7 +51,7 @@ struct GatherWork {
   }
 };
 
-// The same for slots of more than one mesh.
+// Makes the list of slot k, for more than one mesh.
 struct GatherSlotWork {
   const PosedGrid *meshes;
   const int *mesh;    // of each slot
@@ -77,12 +78,12 @@ class FeatureListStore {
   using Array = typename B::template Array<T>;
 
  public:
-  // Empty where lists of cells hold the nearest primitives.
+  // Returns the lists; none if the lists of cells hold the nearest primitives.
   const FeatureLists &view() const { return lists_; }
 
-  // Makes the lists of candidates, which will not go farther than `margin` before the next choice. On a GPU
-  // the kernel is started before the CPU knows counts->n_candidates, for as many as there is memory
-  // for. Returns that number; 0 on a CPU.
+  // Makes the lists of candidates, which will not move farther than `margin` before the next candidate
+  // search. On a GPU the kernel starts before the CPU knows counts->n_candidates, for as many lists as
+  // there is memory for. Returns that number; 0 on a CPU.
   std::size_t make_early(B &b, const GridView &grid, const Pose &pose,
                          const CandidateSpheres &spheres, Real margin, StepCounts *counts)
   {
@@ -93,7 +94,7 @@ class FeatureListStore {
                         &counts->n_candidates);
     return room;
   }
-  // Makes the lists of spheres.n candidates, but for the first `early`, which have them.
+  // Makes the lists of spheres.n candidates, except the first `early`, which already have them.
   void make(B &b, const GridView &grid, const Pose &pose, const CandidateSpheres &spheres,
             Real margin, StepCounts *counts, std::size_t early)
   {
@@ -103,7 +104,7 @@ class FeatureListStore {
     if (!B::kOnCpu) multi_contact_.reserve(n);
     b.for_each_in_warps(n, gather_work(grid, pose, spheres, margin, counts));
   }
-  // The same for n slots of more than one mesh; `large`: is any of them?
+  // Does the same for n slots of more than one mesh. `large`: is any of the meshes large?
   void make(B &b, const GridView &first_grid, bool large, const PosedGrid *meshes, const int *mesh,
             const CandidateSpheres &spheres, Real margin, StepCounts *counts)
   {
@@ -112,8 +113,8 @@ class FeatureListStore {
     leave_out(b, spheres.n, meshes, mesh);
   }
 
-  // For each candidate of one mesh: does it seem to touch more than one feature now? Steps on a GPU begin
-  // with these. Null: not known.
+  // Returns, for each candidate of one mesh, whether it seems to touch more than one feature now. Steps on
+  // a GPU begin with these. Null: not known.
   const char *multi_contact() const { return lists_.n ? multi_contact_.data() : nullptr; }
 
   std::size_t bytes() const
@@ -124,7 +125,8 @@ class FeatureListStore {
   }
 
  private:
-  // `meshes` null: all slots are of one.
+  // Marks n slots as having no list yet, if nodes of their mesh move. `meshes` null: all slots are of one
+  // mesh.
   void leave_out(B &b, std::size_t n, const PosedGrid *meshes, const int *mesh)
   {
     b.for_each(n, LeaveOut{meshes, mesh, lists_.lengths});
@@ -142,7 +144,8 @@ class FeatureListStore {
                               grid.length);
   }
 
-  // `large`: a wall whose records are read faster as copies. False: there are no lists to make.
+  // Reserves memory for n lists. `large`: the records of the wall are read faster as copies. Returns false
+  // if there are no lists to make.
   bool reserve(const GridView &grid, bool large, std::size_t n)
   {
     lists_ = FeatureLists();
@@ -158,7 +161,7 @@ class FeatureListStore {
     return true;
   }
 
-  // Pages that are never written take no memory.
+  // Reserves memory for the copies of n lists. Pages that are never written take no memory.
   void reserve_copies(std::size_t n)
   {
     if (copy_ranges_.size() < n) {
@@ -171,7 +174,7 @@ class FeatureListStore {
     lists_.copies = {records_.data(), copy_ranges_.data(), &used_, static_cast<int>(room)};
   }
 
-  static constexpr int kCopies = 4;    // for each list, in the mean; lists have 1 to 4 features
+  static constexpr int kCopies = 4;    // for each list, on average; lists have 1 to 4 features
 
   FeatureLists lists_;
   Array<Real> reals_;

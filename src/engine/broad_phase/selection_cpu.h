@@ -24,7 +24,7 @@ class Selection<B, true> {
   template <class Work>
   void run(B &, std::size_t n, const Work &work, int *to, std::uint32_t *total)
   {
-    // Blocks of one size whatever the number of threads, so that the order is fixed.
+    // Blocks have the same size for any number of threads, so that the order is fixed.
     constexpr std::int64_t kBlock = 4096;
     const std::int64_t n_blocks = (static_cast<std::int64_t>(n) + kBlock - 1) / kBlock;
     std::vector<int> found(n_blocks, 0);
@@ -55,8 +55,8 @@ class Selection<B, true> {
   }
 
  private:
-  // Leaves those of n spheres that pass the last test of `work`, and returns how many. Memory that the test reads first is
-  // prefetched a few spheres ahead.
+  // Keeps those of n spheres that pass the last test of `work`, and returns their number. Memory that the test reads first
+  // is prefetched a few spheres ahead.
   template <class Work>
   static int refine(const Work &work, int *spheres, int n)
   {

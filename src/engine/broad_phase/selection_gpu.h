@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Selects the candidate spheres on a GPU: a flag for each sphere, and those that are flagged in order; first by cells,
-// then by the features of these.
+// Selects the candidate spheres on a GPU: flags spheres and collects those that are flagged, in order. The first pass
+// tests by cells, the second by the features of these cells.
 #pragma once
 
 #include "backend/backend.h"
@@ -30,7 +30,7 @@ struct FlagByCells {
   }
 };
 
-// Flags the k-th of those that are left if it passes the test by features, too.
+// Flags the k-th of the spheres that passed the first test if it passes the test by features, too.
 template <class Work>
 struct FlagByFeatures {
   Work work;
@@ -73,7 +73,7 @@ class Selection<B, false> {
 
  private:
   Array<char> flags_;
-  Array<int> left_;    // by the cells
+  Array<int> left_;    // those that passed the test by cells
 };
 
 }    // namespace lsdcd

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Neighbour lists (Verlet lists): for each candidate sphere the features that it can touch while its centre stays
-// within a margin of where it was. A step tests these alone and reads no cell.
+// within a margin of where it was. A step tests only these features and reads no cell.
 #pragma once
 
 #include "contact/find_contacts.h"
@@ -11,20 +11,19 @@
 
 namespace lsdcd {
 
-// The list of one sphere. There is no room for more than kMax features: where more are close the
-// margin shrinks, and where that does not help the sphere has no list and its cell is searched
-// instead.
+// The list of one sphere. It has space for kMax features. If more are close, the margin is reduced; if that does
+// not help, the sphere has no list, and its cell is searched instead.
 struct FeatureList {
   static constexpr int kMax = 7;
 
   Vec3 x;         // the centre when the list was made
   Real margin;    // length; negative: there is no list
-  Real cutoff;    // how far from its centre a sphere felt the wall then
+  Real cutoff;    // the sphere's cutoff, its range from the centre, at that time
   std::int32_t n;
   FeatureCode code[kMax];    // ascending
 };
 
-// The lists of many, a column per number, so that neighbours read neighbouring words.
+// The lists of many spheres, with a column for each number, so that neighbouring threads read neighbouring words.
 struct FeatureLists {
   static constexpr std::size_t kReals = 4, kInts = 1 + FeatureList::kMax;    // of a list
 
@@ -35,7 +34,7 @@ struct FeatureLists {
   Real unit = 1;
   RecordCopies copies = {};
 
-  // Columns of `room` lists; unit: a length of the size of radii.
+  // Returns lists in these columns, which have space for `room` lists. `unit`: a length of the size of radii.
   static FeatureLists of(Real *reals, std::int32_t *ints, std::size_t room, Real unit)
   {
     return {reals, reinterpret_cast<float *>(reals + 3 * room), ints, room, unit, {}};
@@ -47,7 +46,7 @@ struct FeatureLists {
     return {x + k, lengths + k, n + k, column, unit, copies.from(k)};
   }
 
-  // Does list k hold all that a sphere at q can touch, up to a cutoff?
+  // Returns whether list k has all features that a sphere at q can touch, up to a cutoff.
   LSDCD_FN bool holds(std::size_t k, const Vec3 &q, Real up_to) const
   {
     const Real m = margin(k);
@@ -61,12 +60,13 @@ struct FeatureLists {
   {
     return static_cast<FeatureCode>(n[(i + 1) * column + k]);
   }
-  // `has_cutoff`: list k already has the list's cutoff, which is not rounded up once more.
+  // Stores a list. `has_cutoff`: list k already has the cutoff of this list, which is not rounded up a second
+  // time.
   LSDCD_FN void put(std::size_t k, const FeatureList &list, const MeshFeaturesView &wall,
                     bool has_cutoff = false) const
   {
     for (int d = 0; d < 3; d++) x[d * column + k] = list.x[d];
-    // Rounded down, and up.
+    // The margin is rounded down, and the cutoff up.
     lengths[k] = static_cast<float>((1 - Real(1e-6)) * (list.margin / unit));
     if (!has_cutoff)
       lengths[column + k] = static_cast<float>((1 + Real(1e-6)) * (list.cutoff / unit));
@@ -77,16 +77,16 @@ struct FeatureLists {
   }
 };
 
-// List k of many, borrowed.
+// A borrowed view of list k.
 struct ListedFeatures {
   const FeatureLists &lists;
   std::size_t k;
 };
 
-// How far a sphere may go before its list is made again, as a share of its radius. Far enough that
-// lists last hundreds of steps, near enough that most have one or two features.
+// How far a sphere may move before its list is made again, as a share of its radius: far enough that lists last
+// hundreds of steps, and near enough that most have one or two features.
 constexpr Real kSkinFraction = 0.05;
-// Where a list is too long its margin is divided by kShrink, up to kMaxShrinks times.
+// If a list is too long, its margin is divided by kShrink, up to kMaxShrinks times.
 constexpr Real kShrink = 4;
 constexpr int kMaxShrinks = 3;
 
@@ -96,7 +96,7 @@ LSDCD_FN Real allowed_margin(const GridView &grid, Real margin)
   return margin < grid.length ? margin : grid.length;
 }
 
-// Puts a code into a list where it belongs, once. False: there is no room for it.
+// Inserts a code into a list in ascending order, if it is not there yet. Returns false if the list is full.
 LSDCD_FN bool insert_code(FeatureList &list, FeatureCode code)
 {
   int at = list.n;
@@ -109,7 +109,7 @@ LSDCD_FN bool insert_code(FeatureList &list, FeatureCode code)
   return true;
 }
 
-// Begins a list of a sphere at q.
+// Starts an empty list of a sphere at q.
 LSDCD_FN void begin_list(FeatureList &list, const Vec3 &q, Real cutoff, Real margin)
 {
   list.n = 0;
@@ -118,7 +118,7 @@ LSDCD_FN void begin_list(FeatureList &list, const Vec3 &q, Real cutoff, Real mar
   list.cutoff = cutoff;
 }
 
-// Finds the list of a sphere at q for a margin; false: it is too long.
+// Finds the list of a sphere at q for a margin. Returns false if it is too long.
 template <unsigned kSize>
 LSDCD_FN bool gather_within(const Warp<kSize> &warp, bool mine, const GridView &grid, const Vec3 &q,
                             Real cutoff, Real margin, FeatureList &list)
@@ -128,20 +128,20 @@ LSDCD_FN bool gather_within(const Warp<kSize> &warp, bool mine, const GridView &
                          [&](FeatureCode code) { return insert_code(list, code); });
 }
 
-// A sphere's cutoff, past which it feels nothing, and the springs it had in the last step.
+// A sphere's cutoff, beyond which it feels nothing, and the springs that it had in the last step.
 template <class Springs>
 struct QuerySphereWith {
   Vec3 x;
   Real radius, cutoff;
-  Springs springs;    // read only where cutoff > radius
+  Springs springs;    // read only if cutoff > radius
   int n_springs;
 };
 using QuerySphere = QuerySphereWith<const Spring *>;
 
-// Can a sphere touch a feature after moving by up to the margin? True, too, where the answer would take too
-// long. A feature at distance d is in the list of any cell from which it is within the grid's cutoff: cells
-// within d - grid.cutoff of the sphere are enough. A thread whose sphere is not `mine`
-// helps the others of its warp.
+// Returns whether a sphere can touch a feature after moving by up to the margin. Also returns true if the answer
+// would take too long. A feature at distance d is in the list of any cell from which it is within the grid's
+// cutoff, so that it is enough to read cells within d - grid.cutoff of the sphere. A thread whose sphere is not
+// `mine` helps the other threads of its warp.
 template <unsigned kSize>
 LSDCD_NOINLINE bool can_touch(const Warp<kSize> &warp, bool mine, const GridView &grid,
                               const QuerySphere &s, Real margin)
@@ -153,7 +153,8 @@ LSDCD_NOINLINE bool can_touch(const Warp<kSize> &warp, bool mine, const GridView
          too_long;
 }
 
-// Does a sphere seem to touch more than one feature of its list where it is? A hint: no result depends on it.
+// Returns whether a sphere seems to touch more than one feature of its list now. This is a hint: no result
+// depends on it.
 LSDCD_FN bool touches_more_than_one(const GridView &grid, const QuerySphere &s,
                                     const FeatureList &list)
 {
@@ -164,8 +165,8 @@ LSDCD_FN bool touches_more_than_one(const GridView &grid, const QuerySphere &s,
   return n > 1;
 }
 
-// Makes a new list of a sphere, for a way of up to `margin` at most, or for less where that list is too long;
-// false: it has none, its cell has to be searched.
+// Makes a new list of a sphere that may move by up to `margin`, or by less if that list is too long. Returns
+// false if the sphere gets no list, so that its cell has to be searched.
 template <unsigned kSize>
 LSDCD_NOINLINE bool gather(const Warp<kSize> &warp, bool mine, const GridView &grid,
                            const QuerySphere &s, Real margin, FeatureList &list)
@@ -179,8 +180,8 @@ LSDCD_NOINLINE bool gather(const Warp<kSize> &warp, bool mine, const GridView &g
   return mine && !missing;
 }
 
-// Local minima of the distance from q to the listed features, in the order of their numbers, so
-// that an answer does not depend on when the list was made.
+// Finds the local minima of the distance from q to the listed features, in the order of their numbers, so that
+// the answer does not depend on when the list was made.
 template <int kCapacity>
 LSDCD_FN void find_in_list(const GridView &grid, const ListedFeatures &list, const Vec3 &q,
                            Real cutoff, ContactSet<kCapacity> &set)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The features of the wall that a sphere could touch after a little way, from the cells near it.
+// Finds the features of the wall that a sphere could touch after a short way, from the cells near it.
 #pragma once
 
 #include "backend/warp.h"
@@ -11,10 +11,10 @@
 
 namespace lsdcd {
 
-// The cells that a ball meets, those that have entries, one after the other.
+// Iterates over the cells that a ball meets and that have entries.
 class CellsInBall {
  public:
-  // `mine`: false: there is none. With a radius of 0 it is the cell that holds q.
+  // `mine` false: there are no cells. With a radius of 0 it is the cell that holds q.
   LSDCD_FN CellsInBall(bool mine, const GridView &grid, const Vec3 &q, Real radius)
   {
     if (radius > 0) {
@@ -30,7 +30,7 @@ class CellsInBall {
     k_ = lo_[2];
   }
   LSDCD_FN void close() { open_ = false; }
-  // False: there is none left.
+  // Gives the next cell. Returns false if there is none left.
   LSDCD_FN bool next(const GridView &grid, Cell &cell)
   {
     while (open_ && step()) {
@@ -62,7 +62,7 @@ class CellsInBall {
   int lo_[3] = {0, 0, 0}, hi_[3] = {0, 0, 0}, i_, j_, k_;
 };
 
-// How many entries ahead a CPU asks for their records.
+// The number of entries by which a CPU requests records ahead.
 constexpr std::uint32_t kAhead = 8;
 
 // Returns where the list of a cell with more than one entry begins.
@@ -72,7 +72,7 @@ inline const void *first_entry(const GridView &grid, const Cell &cell)
   return grid.lists.entries + cell.first;
 }
 
-// Asks a CPU's memory for the first entries of a sphere at q, whose turn comes soon.
+// Prefetches, on a CPU, the first entries of a sphere at q, whose turn comes soon.
 inline void prefetch_entries(const GridView &grid, const Vec3 &q)
 {
   CellAddress at;
@@ -82,9 +82,9 @@ inline void prefetch_entries(const GridView &grid, const Vec3 &q)
   asm volatile("");    // as in prefetch()
 }
 
-// Prefetches on a CPU what a search from q will read first, part by part, as each part is found in the one
-// before: the brick's number, the brick, the cell, its first entries, their records. Many searches wait
-// for one part at the same time.
+// Prefetches, on a CPU, what a search from q will read first. It works part by part, because each part is found
+// in the one before: the brick's number, the brick, the cell, its first entries, their records. So many
+// searches wait for one part at the same time.
 class SearchAhead {
  public:
   static constexpr int kParts = 5;
@@ -98,7 +98,7 @@ class SearchAhead {
     at_ = grid.lists.brick_of + brick_index(grid, p);
   }
 
-  // Part 0, then 1, and so on.
+  // Prefetches part 0, then 1, and so on.
   void prefetch(const GridView &grid, int part)
   {
     if (!at_) return;
@@ -129,7 +129,7 @@ class SearchAhead {
   }
 
  private:
-  const void *at_ = nullptr;    // what is asked for; null: there is no more
+  const void *at_ = nullptr;    // address to prefetch; null: there is nothing left
   std::int32_t in_brick_ = 0;
   std::uint32_t n_ = 0;
 };
@@ -139,26 +139,26 @@ struct FeatureSearch {
   Vec3 q;
   Real cutoff, margin;
   Real past;     // radius around q of the cells that are searched
-  Real close;    // the search ends where an entry may be nearer
+  Real close;    // the search ends when an entry may be nearer
 };
 
-// Calls found(code) for each feature until that returns false; returns true if it never did. Nothing is missed:
-// a contact on the way is in the complete list of the cell of the sphere at that time, that cell meets the
-// ball around q, and lists of cells hold for a margin of their own. Each thread of a warp has a search, or none
-// where it is not `mine`. The threads share the entries; found() gets those of the thread's own search.
+// Calls found(code) for each feature until that returns false; returns true if it never did. No feature is
+// missed: a contact on the way is in the complete list of the cell in which the sphere is at that time, that
+// cell meets the ball around q, and lists of cells are valid for a margin of their own. Each thread of a warp
+// has a search, or none if it is not `mine`. The threads share the entries; found() gets those of the thread's
+// own search.
 template <unsigned kSize, class Found>
 LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView &grid,
                               const FeatureSearch &search, const Found &found)
 {
   using Entries = PackedEntries;
   const Entries entries(grid.lists);
-  // Each half-space of a feature's region moves by the margin at most; one tolerance more is for
-  // rounding.
+  // Each half-space of a feature's region moves by the margin at most; one more tolerance covers rounding.
   const Real more = search.margin + MeshGeometry::tolerance(grid),
              within = (1 + Real(2e-6)) * search.cutoff + more;
   CellsInBall cells(mine, grid, search.q, search.past);
-  std::uint32_t at = 0, end = 0;    // of the cell's entries those that are left
-  Entries::Limit enough = {};       // past this bound none is near
+  std::uint32_t at = 0, end = 0;    // the entries of the cell that are left
+  Entries::Limit enough = {};       // no entry past this bound is near
   bool complete = true;
   for (;;) {
     Cell cell = {};

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Copies of a large wall's records, side by side in the order of the lists that name them, for a step
-// on a CPU: the wall's own are far apart in memory, and each is waited for, with its page.
+// Copies of a large wall's records, for a step on a CPU. They lie side by side in the order of the
+// lists that name them: the wall's own records are far apart in memory, and the CPU waits for each of
+// them and for its page.
 #pragma once
 
 #include "backend/atomic.h"
@@ -12,13 +13,13 @@
 namespace lsdcd {
 
 struct RecordCopies {
-  // Copies of the first n records of a list, and for how many there is room.
+  // Copies of the first n records of a list, and the number for which there is space.
   struct Range {
     std::int32_t first;
     std::int16_t n, room;
   };
 
-  FeatureRecord *records = nullptr;    // null: there are none
+  FeatureRecord *records = nullptr;    // null: there are no copies
   Range *ranges = nullptr;             // of each list
   int *used = nullptr, capacity = 0;
 
@@ -30,7 +31,7 @@ struct RecordCopies {
     return c;
   }
 
-  // Returns the copy of record i of list k; null: there is none.
+  // Returns the copy of record i of list k; null if there is none.
   LSDCD_FN const FeatureRecord *of([[maybe_unused]] std::size_t k, [[maybe_unused]] int i) const
   {
 #if !LSDCD_ON_GPU()
@@ -39,8 +40,8 @@ struct RecordCopies {
     return nullptr;
   }
 
-  // Copies the n records that list k names now; one list by one thread. Where room has run out it
-  // has none, and the wall's own are read.
+  // Copies the n records that list k names now; one list by one thread. If there is no space left,
+  // the list has no copies, and the wall's own records are read.
   LSDCD_FN void put([[maybe_unused]] std::size_t k, [[maybe_unused]] const MeshFeaturesView &wall,
                     [[maybe_unused]] const FeatureCode *code, [[maybe_unused]] int n) const
   {

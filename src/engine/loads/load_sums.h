@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The loads of a mesh's features. Those of a step are added in fixed point (sum_unit.h), whose units follow from its contacts on
-// this process, and then to sums over steps: so they have the same bits in any order of threads.
+// The loads of a mesh's features. The loads of a step are added in fixed point (sum_unit.h), in units that follow from the
+// contacts of this process, and then to sums over steps. So they have the same bits in any order of threads.
 #pragma once
 
 #include "backend/backend.h"
@@ -23,7 +23,7 @@ struct LoadRange {
   LSDCD_FN SumUnit unit(int number) const { return SumUnit({count, exponent[number]}); }
 };
 
-// Where the features of a mesh have their sums.
+// Maps the features of a mesh to the places of their sums.
 struct FeaturePlaces {
   MeshFeaturesView wall;
   std::size_t n_faces, n_edges;
@@ -52,7 +52,7 @@ struct FeaturePlaces {
   }
 };
 
-// What is summed by feature: contacts. Items are candidates, which have any number of them.
+// The quantity that is summed by feature: contacts. Items are candidates, which have any number of contacts.
 struct LoadContacts {
   static constexpr int kSums = LoadEngine::kRow - 1, kMore = 0;
   FeaturePlaces places;
@@ -73,12 +73,13 @@ struct LoadContacts {
     to[3] = dt * contact.wear_power;
     for (int d = 0; d < 3; d++) to[4 + d] = dt * contact.force[d];
   }
-  // What else is to be done for a contact, and of a place in a row.
+  // Does further work for a contact, and for a place in a row: here none.
   LSDCD_FN void note(const StepContact &, std::size_t) const {}
   LSDCD_FN void take_more(std::size_t, Real *) const {}
 };
 
-// The records of a step of all meshes, which are items of one or none. Of impacts the greatest speed is kept, and their spectrum.
+// The quantity that is summed by feature: records of a step, of all meshes. An item has one record or none. For impacts the
+// greatest speed is kept, and their spectrum.
 struct LoadRecords {
   static constexpr int kSums = EnergyEngine::kRow - 2, kMore = 1;
   FeaturePlaces places;
@@ -122,7 +123,7 @@ LSDCD_FN void for_contacts(const In &in, std::size_t k, const F &f)
   for (int c = 0; c < n; c++) f(in.at(k, c));
 }
 
-// Sees the range of a step, and clears that of the next one.
+// Finds the range of a step, and clears that of the next one.
 template <class In>
 struct SeeLoads {
   static constexpr int kSums = In::kSums;
@@ -156,7 +157,7 @@ struct SeeLoads {
   }
 };
 
-// Adds the contacts of each candidate in units. Sums become no numbers where one of their numbers is not finite.
+// Adds the contacts of each candidate, in units. A sum becomes not a number if one of its summands is not finite.
 template <class In>
 struct AddLoads {
   static constexpr int kSums = In::kSums;
@@ -190,7 +191,7 @@ struct AddLoads {
   }
 };
 
-// Moves the units of a step to the sums over steps. Of contacts on a feature one finds its units.
+// Moves the units of a step to the sums over steps. If a feature has several contacts, only one of them finds its units.
 template <class In>
 struct KeepLoads {
   static constexpr int kSums = In::kSums;
@@ -233,7 +234,7 @@ struct FlagLoads {
   }
 };
 
-// Puts the rows of chosen places, and forgets their sums.
+// Writes the rows of selected places, and clears their sums.
 template <class In>
 struct TakeLoads {
   static constexpr int kSums = In::kSums;
@@ -255,7 +256,7 @@ struct TakeLoads {
   }
 };
 
-// Sums by feature of one mesh.
+// The sums by feature of one mesh.
 template <class B, class In>
 class FeatureSums {
   template <class T>
@@ -309,7 +310,7 @@ class FeatureSums {
  private:
   static constexpr std::size_t kMostThreads = 1 << 17;
 
-  In in_ = {};                   // of the last step; its contacts are not read after it
+  In in_ = {};                   // of the last step; its contacts are not read afterwards
   Array<Real> sums_;             // place after place
   Array<std::int64_t> units_;    // the same, 0 between steps
   Array<Range> ranges_;          // two, of which one is clear
@@ -319,11 +320,11 @@ class FeatureSums {
 template <class B>
 class EngineOn;
 
-// Sums by feature of all meshes of an engine, made when they are first added to.
+// The sums by feature of all meshes of an engine, made when they are first added to.
 template <class B>
 class LoadsOn : public LoadEngine {
  public:
-  // The engine must outlive it.
+  // The engine must outlive this object.
   explicit LoadsOn(EngineOn<B> &engine) : e_(engine) {}
 
   void add(int mesh, const FeatureCounts &counts, Real dt) override
@@ -360,7 +361,7 @@ class EnergiesOn : public EnergyEngine {
   };
 
  public:
-  // The engine must outlive it.
+  // The engine must outlive this object.
   explicit EnergiesOn(EngineOn<B> &engine) : e_(engine) {}
 
   void add(int mesh, const FeatureCounts &counts) override

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The nodes of a mesh in an engine: in a step the records are made again (mesh/moving_records.h), and a small
-// record of how far nodes have gone is all that the CPU waits for. Faces that are too thin for the digits of Real are made
-// by the CPU, which has wider ones.
+// The nodes of a mesh in an engine. In each step the records are made again (mesh/moving_records.h), and the CPU waits
+// only for a small record of how far nodes have moved. Faces that are too thin for the digits of Real are made by the CPU,
+// which has wider numbers.
 #pragma once
 
 #include "backend/atomic.h"
@@ -28,7 +28,7 @@
 
 namespace lsdcd {
 
-// A number as bits that ascend with it, and back; one that is no number is behind all others.
+// Converts a number to bits that ascend with it, and back. A value that is not a number comes after all others.
 LSDCD_FN std::uint64_t ascending_number(Real value)
 {
   constexpr std::uint64_t kSign = std::uint64_t(1) << 63;
@@ -46,7 +46,8 @@ LSDCD_FN Real from_ascending_number(std::uint64_t bits)
   return value;
 }
 
-// What a step finds of the nodes: maxima as ascending bits, which are no numbers where a place or velocity is none.
+// What a step finds out about the nodes: maxima as ascending bits. They are not numbers if a place or a velocity is not a
+// number.
 struct NodesSeen {
   std::uint64_t way_sq, way_sq_of_grid, speed_sq;
   std::uint64_t far;    // the largest coordinate, without its sign
@@ -54,8 +55,8 @@ struct NodesSeen {
   int n_left, pad;
 };
 
-// Looks at all nodes, in one pass. A thread looks at several, and a warp raises each number once, so that few wait for
-// each other.
+// Reads all nodes in one pass. A thread reads several nodes, and a warp raises each number once, so that few threads wait
+// for each other.
 constexpr std::size_t kMostLooking = 1 << 15;
 struct LookAtNodes {
   const Vec3 *at, *before, *built_at, *velocity;
@@ -109,7 +110,7 @@ struct LookAtNodes {
   }
 };
 
-// Make the records again, in this order. A face or edge that a CPU has to make is put into left[].
+// The kernels that make the records again, in this order. A face or edge that a CPU has to make is put into left[].
 
 struct MoveFaces {
   MovedMesh moved;
@@ -148,7 +149,7 @@ struct MoveVertices {
   template <unsigned kSize>
   LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t i) const
   {
-    if (mine && i == 0) *seen = NodesSeen();    // for the next step; the CPU has it
+    if (mine && i == 0) *seen = NodesSeen();    // for the next step; the CPU has read it
     move_vertex(warp, mine, moved, static_cast<std::uint32_t>(i));
   }
 };
@@ -163,8 +164,8 @@ struct PutParts {
   }
 };
 
-// Where nodes were when springs turned last: there were none, where they are, where they were before the last move, or
-// earlier.
+// Where nodes were when springs were last turned: there were none; where they are now; where they were before the last
+// move; or earlier.
 enum class SpringsAt { nowhere, now, before, earlier };
 
 template <class B>
@@ -176,9 +177,10 @@ class MovingNodes : public NodeEngine {
   using Array = typename B::template Array<T>;
 
  public:
-  // Of the mesh with this number. The engine must outlive it, or set_engine() comes first.
+  // Manages the nodes of the mesh with this number. The engine must outlive this object, unless set_engine() is called
+  // first.
   MovingNodes(EngineOn<B> &engine, int mesh) : e_(&engine), mesh_(mesh) {}
-  // Goes on in another engine on the same backend, whose grids are to be built.
+  // Continues in another engine on the same backend, whose grids have to be built.
   void set_engine(EngineOn<B> &engine) { e_ = &engine; }
 
   void start(const WeldedMesh &mesh) override
@@ -203,7 +205,7 @@ class MovingNodes : public NodeEngine {
     next_velocity_ = Array<Vec3>(n);
     velocity_ = from_cpu(b(), none);
     spin_ = from_cpu(b(), none);
-    // Neither yes nor no: the first move puts all parts.
+    // The value 2 is neither yes nor no, so that the first move writes all parts.
     edge_acts_ = from_cpu(b(), std::vector<char>(mesh.edges.size(), 2));
     vertex_acts_ = from_cpu(b(), std::vector<char>(n, 2));
     n_parts_ = from_cpu(b(), std::vector<std::uint32_t>(1, 0));
@@ -213,7 +215,7 @@ class MovingNodes : public NodeEngine {
     b().wait();
   }
 
-  // By memory that copies without a wait.
+  // Copies by way of memory from which a GPU can copy without a wait.
   void give(const Vec3 *x, const Vec3 *v) override
   {
     const std::size_t n = at_.size();
@@ -324,7 +326,7 @@ class MovingNodes : public NodeEngine {
     b().wait();
   }
 
-  // Returns what steps read of the nodes and of the mesh, where the backend computes.
+  // Returns what steps read of the nodes and of the mesh, in the memory of the backend.
   const MeshFeaturesView &records() const { return records_.view.wall; }
   NodeField field() const { return {velocity_.data(), spin_.data(), going_}; }
 
@@ -338,16 +340,16 @@ class MovingNodes : public NodeEngine {
                sizeof(int);
   }
 
-  // The steps of the above. Public because nvcc takes no device lambda from a private function.
+  // The steps of the functions above. Public because nvcc takes no device lambda from a private function.
 
-  // The CPU waits until it has what was seen, while the rest goes on.
+  // Makes the records again. The CPU waits until it has the NodesSeen, while the rest of the work continues.
   NodesGone remake()
   {
     look();
     const MovedMesh moved = moved_mesh();
     b().for_each_in_warps(moved.mesh.n_faces, MoveFaces{moved, left_.data(), seen_.data()});
     int without_area = -1;
-    if constexpr (B::kOnCpu)    // no count has to come to it first
+    if constexpr (B::kOnCpu)    // no count has to be copied first
       without_area = make_left(moved, std::exchange(seen_.data()->n_left, 0));
     move_edges(moved);
     b().copy_out(seen_.data(), seen_on_cpu_.data(), 1);
@@ -393,7 +395,7 @@ class MovingNodes : public NodeEngine {
     if (with_spins_) find_spins();
   }
 
-  // The faces of a node in the order of their numbers, as a CPU adds them.
+  // Finds the faces of each node in the order of their numbers, in which a CPU adds them.
   void find_spins()
   {
     const Real back = back_;
@@ -412,7 +414,7 @@ class MovingNodes : public NodeEngine {
     });
   }
 
-  // Makes the first n of left_. Returns the first face that has no area, or -1.
+  // Makes the first n entries of left_. Returns the first face that has no area, or -1.
   int make_left(const MovedMesh &moved, int n)
   {
     if (n == 0) return -1;
@@ -461,14 +463,14 @@ class MovingNodes : public NodeEngine {
 
  private:
   B &b() const { return e_->b_; }
-  // The same in each call.
+  // Returns the rows, which are the same in each call.
   const int *rows(const std::vector<int> &node_of_row)
   {
     if (node_of_row_.size() != node_of_row.size()) node_of_row_ = from_cpu(b(), node_of_row);
     return node_of_row_.data();
   }
 
-  // `far` is where the backend has seen it.
+  // Returns the moved mesh, with `far` in the memory of the backend, which has found it.
   MovedMesh moved_mesh()
   {
     return {topology_,
@@ -513,7 +515,7 @@ class MovingNodes : public NodeEngine {
   EngineOn<B> *e_;
   int mesh_;
   bool with_spins_ = false;
-  Real back_ = 0;     // how long ago velocities are of (time)
+  Real back_ = 0;     // the time before now to which velocities belong
   Real going_ = 0;    // see build_grid()
   Array<int> topology_numbers_;
   Array<int> face_first_, face_around_;    // the faces around each vertex
@@ -522,10 +524,10 @@ class MovingNodes : public NodeEngine {
   Array<Vec3> at_, before_, earlier_, next_, built_at_, velocity_, next_velocity_, spin_;
   SpringsAt springs_ = SpringsAt::nowhere;
   typename B::template CpuArray<Vec3> staged_;
-  typename B::Event is_copied_;    // from staged_
+  typename B::Event is_copied_;    // the copy from staged_ is done
   GridOn<B> records_;              // a grid without cells
   Array<char> edge_acts_, vertex_acts_;
-  Array<std::uint32_t> n_parts_;    // how many faces get their parts in a step: all or none
+  Array<std::uint32_t> n_parts_;    // number of faces that get their parts in a step: all or none
   Array<FeatureCode> primitives_, left_;
   MovingGrid<B> grid_;
   Array<NodesSeen> seen_;

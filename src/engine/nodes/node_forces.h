@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The forces of contacts on the nodes of a mesh: each contact's force in the shares of its nodes, added in fixed point
-// (sum_unit.h), whose unit follows from the shares of this step, on all processes where sums are over all of
-// them. So a sum has the same bits on any backend and any number of threads and processes, and nothing is kept between
-// steps.
+// The forces of contacts on the nodes of a mesh. Each contact's force is divided by the shares of its nodes and added in
+// fixed point (sum_unit.h). The unit follows from the shares of this step, on all processes if sums are over all of them.
+// So a sum has the same bits on any backend and any number of threads and processes, and nothing is kept between steps.
 #pragma once
 
 #include "backend/atomic.h"
@@ -41,7 +40,7 @@ struct NodeContacts {
     const int n_k = n_contacts[k];
     return n_k > 0 && contacts[first_contact[k]].mesh == mesh ? n_k : 0;
   }
-  // On a CPU: prefetches the record of the first contact of a candidate whose turn comes soon.
+  // Prefetches, on a CPU, the record of the first contact of a candidate whose turn comes soon.
   LSDCD_FN void prefetch_ahead([[maybe_unused]] std::size_t k) const
   {
 #if !LSDCD_ON_GPU()
@@ -56,8 +55,8 @@ struct NodeContacts {
   }
 };
 
-// Puts the power of the nodes on each candidate, and sees the range of the shares. Threads look at several candidates, so
-// that few raise the same number at once; they clear the sums, and the range of the next step.
+// Stores the power of the nodes on each candidate, and finds the range of the shares. A thread reads several candidates,
+// so that few threads raise the same number at once. Also clears the sums, and the range of the next step.
 struct SeeNodeForces {
   NodeContacts in;
   std::size_t n_threads, n_sums;
@@ -102,8 +101,8 @@ struct SeeNodeForces {
   }
 };
 
-// Adds the shares of each candidate. Threads that have the same node add theirs first, as many contacts of a coarse mesh
-// would wait for each other at few nodes.
+// Adds the shares of each candidate. Threads that have the same node first add theirs together: otherwise many contacts
+// of a coarse mesh would wait for each other at few nodes.
 struct AddNodeForces {
   NodeContacts in;
   const NodeForceRange *range;
@@ -148,7 +147,7 @@ struct AddNodeForces {
   }
 };
 
-// Puts the sums of blocks of values, each in order.
+// Stores the sums of blocks of values, each added in order.
 struct SumBlocks {
   const Real *values;
   std::size_t n;
@@ -163,7 +162,8 @@ struct SumBlocks {
   }
 };
 
-// The force on the node of row k: of contacts, and of faces that push it in the order of their numbers, as on a host.
+// Computes the force on the node of row k: of contacts, and of faces that push it, in the order of their numbers, as on a
+// host.
 struct ForceOfNode {
   const int *faces, *first, *around;
   const Vec3 *at;
@@ -191,7 +191,7 @@ class NodeForces {
   using Array = typename B::template Array<T>;
 
  public:
-  // Sees the contacts of a step on this process, and forgets those of the last one.
+  // Finds the range of the contacts of a step on this process, and drops those of the last step.
   void see(B &b, const NodeContacts &in, std::size_t n_nodes)
   {
     if (ranges_.size() == 0) ranges_ = from_cpu(b, std::vector<NodeForceRange>(2));
@@ -207,14 +207,15 @@ class NodeForces {
     seen_.record(b);
   }
 
-  // Returns the range of what was seen. Waits for it.
+  // Returns the range that was found. Waits for it.
   NodeForceRange range() const
   {
     seen_.wait();
     return *range_on_cpu_.data();
   }
 
-  // Adds up what was seen: in units of this range, or by its own where it is null. Does not wait.
+  // Adds up the contacts, in units that follow from this range, or if it is null from the one that was found. Does not
+  // wait.
   void add(B &b, const NodeForceRange *of_all)
   {
     if (of_all) put_one(b, range_now(), *of_all);
@@ -255,9 +256,9 @@ class NodeForces {
   static std::size_t blocks_of(std::size_t n) { return (n + kTotalsBlock - 1) / kTotalsBlock; }
   NodeForceRange *range_now() { return ranges_.data() + now_; }
 
-  NodeContacts in_ = {};    // of the last step; not read after it
+  NodeContacts in_ = {};    // of the last step; not read afterwards
   std::size_t n_sums_ = 0;
-  int now_ = 0;    // which of the ranges is of the last step; the other one is clear
+  int now_ = 0;                     // index of the range of the last step; the other one is clear
   Array<NodeForceRange> ranges_;    // two
   Array<std::int64_t> sums_;        // in units, x y z, node after node
   Array<Real> powers_,
@@ -265,7 +266,7 @@ class NodeForces {
   typename B::template CpuArray<Real> power_on_cpu_;
   typename B::template CpuArray<NodeForceRange> range_on_cpu_ =
       typename B::template CpuArray<NodeForceRange>(1);
-  typename B::Event seen_;    // once the range is there
+  typename B::Event seen_;    // the range has been found
 };
 
 }    // namespace lsdcd

@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Neighbour lists of spheres at a mesh whose nodes move. A list names whole primitives, faces with their edges and
-// vertices, by their distance alone: a primitive at a distance d now is at least d - way of the sphere - way of the
-// nodes away later, however its normal turns. So a list of all within
-//
+// Neighbour lists of spheres at a mesh whose nodes move. A list names whole primitives, which are faces with their edges
+// and vertices, by their distance alone. A primitive at a distance d now is at least d - (way of the sphere) - (way of the
+// nodes) away later, however its normal turns. So a list of all primitives within
 //   cutoff + margin of the list + NodeField::going
-//
-// is complete while the sphere is within the margin and no node has gone farther than `going`; then the host chooses
-// candidates, and with them all lists, again.
+// is complete while the sphere is within the margin and no node has moved farther than `going`; then the host searches for
+// candidates again, which makes all lists anew.
 #pragma once
 
 #include "contact/node_field.h"
@@ -18,8 +16,8 @@
 
 namespace lsdcd {
 
-// A list of primitives that is made from those of a cell, one after the other. It is for a way of a share of the sphere's
-// radius, or for less, as soon as it has no room for what is near on that way.
+// Makes a list of primitives from those of a cell, one after the other. The list is valid for a way that is a share of the sphere's
+// radius; the way is reduced as soon as the list is too short for what is near on that way.
 class NodeListMaker {
  public:
   LSDCD_FN NodeListMaker(const GridView &grid, const QuerySphere &s, Real going,
@@ -30,10 +28,10 @@ class NodeListMaker {
     begin_list(list, s.x, s.cutoff, kSkinFraction * s.radius);
   }
 
-  // Returns the distance of primitives that belong to it. Lists hold as long as FeatureLists::put() says.
+  // Returns the distance within which primitives belong to the list. FeatureLists::put() says how long lists are valid.
   LSDCD_FN Real within() const { return cutoff_ + list_.margin + beside_margin_; }
 
-  // Adds a primitive at this distance where it belongs. Returns false where there is no list for any way.
+  // Adds a primitive at this distance if it belongs to the list. Returns false if no list can be made, however short the way.
   LSDCD_FN bool add(FeatureCode code, Real distance)
   {
     int at = list_.n;
@@ -72,12 +70,12 @@ class NodeListMaker {
   }
 
   FeatureList &list_;
-  Real distance_[FeatureList::kMax];    // of what is listed
+  Real distance_[FeatureList::kMax];    // of the listed primitives
   const Real beside_margin_, cutoff_;
   int shrinks_ = 0;
 };
 
-// Is the primitive within this distance of q? Gives its distance where it is.
+// Returns whether the primitive is within this distance of q, and gives its distance if it is.
 LSDCD_FN bool is_primitive_within(const GridView &grid, FeatureCode code, const Vec3 &q,
                                   Real within, Real &distance)
 {
@@ -88,8 +86,8 @@ LSDCD_FN bool is_primitive_within(const GridView &grid, FeatureCode code, const 
   return distance <= within;
 }
 
-// Makes the list of a sphere from its cell, which lists what is near. Each thread of a warp has a sphere, or none where it
-// is not `mine`; the threads share the entries of their cells.
+// Makes the list of a sphere from its cell, which lists what is near. Each thread of a warp has a sphere, or none if it is not
+// `mine`; the threads share the entries of their cells.
 template <unsigned kSize>
 LSDCD_FN void gather_nodes(const Warp<kSize> &warp, bool mine, const GridView &grid,
                            const QuerySphere &s, Real going, FeatureList &list)
@@ -97,7 +95,7 @@ LSDCD_FN void gather_nodes(const Warp<kSize> &warp, bool mine, const GridView &g
   NodeListMaker made(grid, s, going, list);
   CellAddress in_cell = {};
   Cell cell = {};
-  std::uint32_t at = 0, end = 0;    // of the cell's entries those that are left
+  std::uint32_t at = 0, end = 0;    // the entries of the cell that are left
   if (mine && find_cell(grid, s.x, in_cell, cell)) end = cell.count;
   const Real away = norm(in_cell.from_centre);
   for (unsigned busy = warp.vote(at < end); busy != 0; busy = warp.vote(at < end)) {
@@ -109,7 +107,7 @@ LSDCD_FN void gather_nodes(const Warp<kSize> &warp, bool mine, const GridView &g
                         count = warp.of(cell.count, split.owner),
                         its_end = warp.of(end, split.owner),
                         c = warp.of(at, split.owner) + split.turn;
-    // A cell has a single entry inline. Others ascend in their bounds on the distance from its centre.
+    // A cell has a single entry inline. Several entries ascend in their bounds on the distance from its centre.
     bool near = split.helps && c < its_end;
     CellEntry entry = {first, 0};
     if (near && count > 1) entry = grid.lists.entries[first + c];
@@ -131,7 +129,7 @@ LSDCD_FN void gather_nodes(const Warp<kSize> &warp, bool mine, const GridView &g
   }
 }
 
-// On a CPU: prefetches the records of the first faces of a list whose turn comes soon.
+// Prefetches, on a CPU, the records of the first faces of a list whose turn comes soon.
 LSDCD_FN void prefetch_node_list([[maybe_unused]] const GridView &grid,
                                  [[maybe_unused]] const FeatureLists &lists,
                                  [[maybe_unused]] std::size_t k)
@@ -143,8 +141,8 @@ LSDCD_FN void prefetch_node_list([[maybe_unused]] const GridView &grid,
 #endif
 }
 
-// Local minima of the distance from q to the listed primitives, as add_primitive() finds them, but that sides of the face that q is
-// over the inside of are not looked at once more for its neighbours.
+// Finds the local minima of the distance from q to the listed primitives, as add_primitive() does. If q is over the inside of a
+// face, the sides of that face are not tested again for its neighbours.
 template <int kCapacity>
 LSDCD_FN void find_in_node_list(const GridView &grid, const ListedFeatures &list, const Vec3 &q,
                                 Real cutoff, ContactSet<kCapacity> &set)
