@@ -10,8 +10,8 @@
 
 namespace lsdcd {
 
-// Makes the engine of a law that is ContactLaw::for_shapes. It has all of the engine for spheres, and each step reads
-// Spheres::shapes. Each mesh needs a tree.
+// Makes the engine for a law that is ContactLaw::for_shapes. It does all that the engine for spheres does, and each
+// step reads Spheres::shapes. Each mesh needs a tree.
 std::unique_ptr<WallEngine> make_shape_engine(const EngineSettings &settings);
 
 // Returns why grains that are no spheres cannot have this law, or an empty text.

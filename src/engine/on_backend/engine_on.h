@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The engine on one backend: one source for all of them. It works on arrays in the backend's memory, those of the host or
-// those of its mirror (mirror.h). In the order of a sphere's way it runs broad_phase/broad_phase.h now and then, and
-// step/mesh_step.h in each step.
+// The engine on one backend; all backends share this source. It works on arrays in the backend's memory: those of the host, or
+// those of its mirror (mirror.h). It runs broad_phase/broad_phase.h when a candidate search is due, and step/mesh_step.h in
+// each step.
 #pragma once
 
 #include "base/input_error.h"
@@ -89,7 +89,7 @@ class EngineOn : public WallEngine {
       make_room(spheres, broad_phase_.choose(b_, spheres, margin, counts_, springs_.count(),
                                              law_.traits.energy ? &last : nullptr));
       if (mirror_) mirror_->make_room(b_, broad_phase_, spheres.n);
-      // A spring on a mesh of which its sphere is no candidate is of no use, and would be read as one on another.
+      // A spring on a mesh of which its sphere is no candidate is useless, and would be read as one on another mesh.
       if (broad_phase_.uses_slots())
         springs_.forget_others(broad_phase_.slots().n_spheres(), broad_phase_.slots().meshes_of());
       if (watch) broad_phase_.store_positions(b_, spheres, margin);
@@ -105,7 +105,8 @@ class EngineOn : public WallEngine {
 
   void begin(When when = When::in_turn) override
   {
-    when_ = is_apart() ? When::in_turn : when;    // its own stream is beside the host's work anyway
+    when_ =
+        is_apart() ? When::in_turn : when;    // on its own stream it runs beside the host anyway
     if (when_ != When::in_turn) beside_.ready(b_);
     state_ = StepState::begun;
   }
@@ -186,7 +187,8 @@ class EngineOn : public WallEngine {
   const int *candidates() const { return broad_phase_.candidates(); }
 
  private:
-  // Does the engine work on a step while the host does something else? Forces that a copy brings have to be there by collect().
+  // Returns whether the engine works on a step while the host does something else. Forces that are copied must have arrived by
+  // collect().
   bool starts_at_submit() const { return when_ != When::in_turn || is_apart(); }
   bool gives_back_at_submit() const { return when_ == When::beside_adding_early || is_apart(); }
   bool is_apart() const { return settings_.arrays == HostArrays::apart; }
@@ -195,13 +197,13 @@ class EngineOn : public WallEngine {
     return mirror_ ? mirror_->bring_places(b_, host) : host;
   }
 
-  // Returns the features of a mesh with their images. Records of nodes that move have none.
+  // Returns the features of a mesh with their periodic images. Records of nodes that move have no images.
   MeshFeaturesView features(int mesh) const
   {
     const bool has_nodes = !nodes_.empty() && nodes_[mesh]->field().velocity;
     return has_nodes ? MeshFeaturesView() : broad_phase_.mesh(mesh).grid.view.wall;
   }
-  // Return those on a mesh, and its records of energy without the sums of a mesh.
+  // Return the contacts on a mesh, and its records of energy without the sums of a mesh.
   NodeContacts contacts_on(int mesh) const
   {
     return results_.node_contacts(springs_.contacts(), mesh, features(mesh), nullptr);
@@ -216,7 +218,7 @@ class EngineOn : public WallEngine {
     for (int i = 0; i < kOverflowScratches; i++) put_one(b_, &overflow_.data()[i].locked, 0);
   }
 
-  // The laws for multi-mesh spheres.
+  // Copies the laws for multi-mesh spheres to memory of the backend.
   void put_laws()
   {
     const std::vector<ContactLaw> &laws = settings_.laws.laws;
@@ -225,7 +227,7 @@ class EngineOn : public WallEngine {
       put_one(b_, laws_.data() + k, LawEntry{law_.laws[k], laws[k].pull_off()});
   }
 
-  // Grids and settings of all meshes for the next step. Does not wait.
+  // Copies the grids and settings of all meshes for the next step. Does not wait.
   const MeshWork *put_works()
   {
     const std::size_t n = broad_phase_.n_meshes();
@@ -234,7 +236,7 @@ class EngineOn : public WallEngine {
     return works_.data();
   }
 
-  // Clears what was counted since the CPU last read it.
+  // Clears the counts since the CPU last read them.
   void clear_diagnostics(const StepCounts &seen)
   {
     StepCounts cleared = {};
@@ -247,7 +249,7 @@ class EngineOn : public WallEngine {
     are_counts_clear_ = true;
   }
 
-  // Returns what the step reads of a mesh, as in the last step where nothing of it has changed.
+  // Returns what the step reads of a mesh; it is reused from the last step if nothing of it has changed.
   const MeshWork &mesh_work(int m)
   {
     std::optional<MeshWork> &work = works_of_meshes_[m];
@@ -257,14 +259,15 @@ class EngineOn : public WallEngine {
     return work.emplace(MeshWork{
         mesh.grid.view, force_settings(settings_, step_, mesh.pose, nodes, m, receded_of(m))});
   }
-  // Returns by how far wear has moved the vertices of a mesh since the last step, where kernels read it; null: not at all.
+  // Returns how far wear has moved the vertices of a mesh since the last step, in memory of kernels; null: not at all.
   const Vec3 *receded_of(int m)
   {
     if (!step_.receded || step_.receded[m].empty()) return nullptr;
     return (receded_[m] = from_cpu(b_, step_.receded[m])).data();
   }
   void forget_works() { works_of_meshes_.assign(works_of_meshes_.size(), std::nullopt); }
-  // Does this part of a step where the step runs: of one that was begun beside the host's work on the engine's own stream.
+  // Runs this part of a step where the step runs. If the step was begun beside the host's work, that is the engine's own
+  // stream.
   template <class Work>
   void where_step_runs(const Work &work)
   {
@@ -272,14 +275,14 @@ class EngineOn : public WallEngine {
     beside_.begin(b_);
     try {
       work();
-    } catch (...) {    // a program may go on after an error
+    } catch (...) {    // a program may continue after an error
       beside_.end(b_);
       throw;
     }
     beside_.end(b_);
   }
 
-  // Does the work of the step, without waiting for it. `adds_later`: forces are left to the results.
+  // Does the work of the step, without waiting for it. `adds_later`: the results add the forces later.
   void compute(ResultsOn<B> &results, bool adds_later)
   {
     const std::size_t n = broad_phase_.n();
@@ -303,7 +306,7 @@ class EngineOn : public WallEngine {
     job.step = static_cast<std::uint64_t>(std::max<std::int64_t>(0, step_.number - first_step_)) &
                DeepestOverlap::kRest;
     if (law_.traits.records) {
-      // A contact that begins may have a record of what it dissipates, and one of its impact.
+      // A contact that begins may have two records: one of what it dissipates, and one of its impact.
       const bool both = law_.traits.energy && settings_.impact_speed > 0;
       const std::size_t of_last = springs_.places_read(), of_both_steps = springs_.places();
       job.records = results.begin_records(of_both_steps + (both ? of_both_steps - of_last : 0),
@@ -314,12 +317,12 @@ class EngineOn : public WallEngine {
       run_slots(job);
     else
       run_law(job, n, law_of(0, 0));
-    // Where a setup stores what contacts keep, it leaves springs as they are.
+    // In a setup that stores what contacts keep, springs stay as they are.
     if (job.settings.stores) springs_.swap();
     if (step_.totals && !B::kOnCpu) results.start_sums(b_);
   }
 
-  // Makes room for steps over the candidates of a choice. Throws where a sphere was too large for it.
+  // Reserves memory for steps over the candidates of a search. Throws InputError if a sphere was too large for it.
   void make_room(const Spheres &spheres, const StepCounts &seen)
   {
     if (seen.too_large) throw_for(spheres, seen);
@@ -342,7 +345,8 @@ class EngineOn : public WallEngine {
     return law_.laws[mesh * settings_.laws.of_mesh() + kind];
   }
 
-  // Candidates of one mesh only, mesh after mesh and kind after kind, then multi-mesh spheres.
+  // Runs a step over candidate-mesh pairs: first candidates of a single mesh, mesh after mesh and kind after kind, then
+  // multi-mesh spheres.
   void run_slots(const StepJob &job)
   {
     const CandidateSlots<B> &slots = broad_phase_.slots();
@@ -359,7 +363,7 @@ class EngineOn : public WallEngine {
       }
     if (slots.n_multi_mesh() == 0) return;
     StepJob multi_mesh = job;
-    // Lists for more than one mesh name features, and these do not hold while nodes move.
+    // Lists of multi-mesh spheres name features, and are not valid while nodes move.
     if (settings_.nodes) multi_mesh.lists = FeatureLists();
     multi_mesh.multi_mesh = {put_works(), slots.first(), slots.mesh()};
     multi_mesh.multi_mesh.laws = {laws_.data(), settings_.laws.of_mesh(),
@@ -385,28 +389,29 @@ class EngineOn : public WallEngine {
   CompiledLaw<B> law_;
   B b_;
   typename B::SideStream beside_;
-  When when_ = When::in_turn;    // of the step that was begun
+  When when_ = When::in_turn;    // when the step that was begun does its work
   BroadPhase<B> broad_phase_;
   std::unique_ptr<SphereMirror<B>> mirror_;    // null: the host's arrays are used as they are
   Spheres spheres_;                            // of the step: those of the mirror once it runs
   StepSettings step_;
   Array<StepCounts> counts_;
   bool are_counts_clear_ = true;
-  std::int64_t first_step_ = 0;    // since they were cleared
+  std::int64_t first_step_ = 0;    // number of the first step since counts were cleared
   ResidentSprings<B> springs_;
 
-  ResultsOn<B> results_{b_}, next_results_{b_};    // of the last step, and of one submitted beside
+  ResultsOn<B> results_{b_},
+      next_results_{b_};    // of the last step, and of one submitted beside it
   WorkListStore<B> work_lists_;
   friend class MovingNodes<B>;
-  std::vector<std::unique_ptr<MovingNodes<B>>> nodes_;    // of each mesh; none where none move
+  std::vector<std::unique_ptr<MovingNodes<B>>> nodes_;    // of each mesh; empty if no nodes move
   friend class LoadsOn<B>;
   friend class EnergiesOn<B>;
   LoadsOn<B> loads_{*this};
   EnergiesOn<B> energies_{*this};
   std::vector<std::optional<MeshWork>>
-      works_of_meshes_;                 // none: something of it may have changed
+      works_of_meshes_;                 // empty: something of it may have changed
   std::vector<Array<Vec3>> receded_;    // of each mesh, see StepSettings
-  Array<MeshWork> works_;               // the same where kernels read them
+  Array<MeshWork> works_;               // the same in memory of kernels
   Array<LawEntry> laws_;                // of all meshes
 
   Array<OverflowScratch> overflow_;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The spheres of a host whose arrays an engine cannot use as they are: in the memory of the CPU while the engine is on a GPU,
-// or in float. The engine has arrays of its own, in double, where it computes, with the host's indices. A choice gets places
-// and radii of all spheres, a step what it reads of the candidates, which are few; forces go back.
+// A copy of the host's spheres, for a host whose arrays the engine cannot use directly: they are in memory of the CPU while
+// the engine is on a GPU, or they are in float. The engine has arrays of its own, in double, in its memory, with the host's
+// indices. A candidate search gets the places and radii of all spheres. A step gets what it reads of the candidates, which
+// are few, and their forces are copied back.
 #pragma once
 
 #include "backend/backend.h"
@@ -16,7 +17,7 @@
 
 namespace lsdcd {
 
-// What a step reads of a sphere, as it is sent, and what it leaves, as it comes back.
+// The numbers that a step reads of a sphere, as they are sent, and those that it leaves, as they come back.
 struct SphereRow {
   Vec3 x, v, omega;
   Real radius, mass, temperature;
@@ -26,12 +27,12 @@ struct Response {
   Real heat_flow;
 };
 
-// The arrays of an engine, by the host's indices; heat's are null where there is none.
+// The arrays of an engine, by the host's indices. Those of heat are null if there is none.
 struct MirrorArrays {
   StridedView<Real> x, v, omega, force, torque;
   Real *radius, *mass, *temperature, *heat_flow;
 
-  // Puts what a step reads of sphere i, which has no force yet.
+  // Stores what a step reads of sphere i, and sets its force to 0.
   LSDCD_FN void put(std::size_t i, const SphereRow &row) const
   {
     x.put(i, row.x);
@@ -54,7 +55,7 @@ LSDCD_FN Vec3 in_double(const StridedView<const float> &from, std::size_t i)
   return {Real(p[0]), Real(p[from.column]), Real(p[2 * from.column])};
 }
 
-// The kernels. Of each candidate, index[k]:
+// The kernels. The following ones are for each candidate, index[k]:
 
 struct PutRows {
   MirrorArrays to;
@@ -76,7 +77,7 @@ struct PutFloats {
   MirrorArrays to;
   const int *index;
   FloatSpheres from;
-  const Real *mass;    // in place of the floats; null: there is none
+  const Real *mass;    // instead of the floats; null: there is none
   LSDCD_FN void operator()(std::size_t k) const
   {
     const std::size_t i = index[k];
@@ -100,7 +101,7 @@ struct AddToFloats {
     add(to.torque, i, from.torque[i]);
   }
 };
-// Of all spheres:
+// The following kernels are for all spheres:
 struct PlacesInDouble {
   StridedView<const float> from;
   StridedView<Real> to;
@@ -125,7 +126,7 @@ class SphereMirror {
   {
   }
 
-  // Each of these returns the engine's spheres: with places, with radii, or with all that a choice reads.
+  // Each of these functions returns the engine's spheres: with places, with radii, or with all that a candidate search reads.
   Spheres bring_places(B &b, const Spheres &host)
   {
     Spheres s = members(b, host);
@@ -158,7 +159,7 @@ class SphereMirror {
     return s;
   }
 
-  // Makes room for steps over the candidates of a choice among n spheres.
+  // Reserves memory for steps over the candidates of a search among n spheres.
   void make_room(B &b, const BroadPhase<B> &chosen, std::size_t n)
   {
     index_ = chosen.candidates();
@@ -209,7 +210,7 @@ class SphereMirror {
     return s;
   }
 
-  // Starts to bring forces back, behind the work of the step. Does not wait.
+  // Starts to copy forces back, after the work of the step. Does not wait.
   void start_back(B &b)
   {
     if (n_ == 0) return;
@@ -220,7 +221,7 @@ class SphereMirror {
       b.for_each(n_, AddToFloats{arrays(), index_, *host_.in_float});
     }
   }
-  // Waits for forces that come by a copy, and adds them to the host's.
+  // Waits for forces that are copied, and adds them to the host's.
   void collect(B &b)
   {
     if (!is_apart() || n_ == 0) return;
@@ -228,7 +229,7 @@ class SphereMirror {
     add_responses();
   }
 
-  // Returns the radius of sphere i of the last step (length) of a host with arrays in float, else 0.
+  // Returns the radius of sphere i in the last step (length), if the host has its arrays in float, else 0.
   Real radius_of(B &b, int i) { return is_apart() || i < 0 ? 0 : read_one(b, radius_.data() + i); }
 
   std::size_t bytes() const
@@ -252,7 +253,7 @@ class SphereMirror {
             radius_.data(), mass_.data(), temperature_.data(), heat_flow_.data()};
   }
 
-  // Returns spheres with nothing but who is in the group.
+  // Returns spheres that only say who is in the group.
   Spheres members(B &b, const Spheres &host)
   {
     Spheres s;
@@ -285,7 +286,7 @@ class SphereMirror {
     b.wait();
   }
 
-  // Lists each candidate once, as those near several meshes have a slot for each: forces come back once.
+  // Lists each candidate once, because those near several meshes have a slot for each mesh, and forces are copied back once.
   void list_each_once(B &b, const CandidateSlots<B> &slots)
   {
     const std::size_t n = slots.n_spheres();
@@ -297,7 +298,7 @@ class SphereMirror {
     index_ = once_.data();
   }
 
-  // Fills the rows of candidates, which are far apart in the host's memory, so that they are asked for ahead of their turn.
+  // Fills the rows of candidates. These are far apart in the host's memory, so they are prefetched.
   void pack(const Spheres &s)
   {
     constexpr int kAhead = 16;
@@ -315,7 +316,7 @@ class SphereMirror {
       to[k] = {s.x[i], s.v[i], s.omega[i], s.radius[i], s.mass[i], heat_ ? s.temperature[i] : 0};
     }
   }
-  // Adds forces that have come to the host's, and leaves spheres alone that feel nothing, which are most.
+  // Adds the forces that were copied back to the host's, and skips spheres that feel nothing, which are most.
   void add_responses()
   {
     const int n = static_cast<int>(n_), *index = index_on_cpu_.data();
@@ -336,12 +337,12 @@ class SphereMirror {
   HostArrays arrays_;
   bool heat_;
   Array<Real> x_, v_, omega_, radius_, mass_, force_, torque_, temperature_, heat_flow_;
-  Array<int> mask_, type_;    // since the choice
+  Array<int> mask_, type_;    // as of the candidate search
   CpuArray<Real> places_on_cpu_;
 
-  std::size_t n_ = 0;             // candidates, each once
-  const int *index_ = nullptr;    // of these
-  Array<int> once_;               // the same, where slots have some of them several times
+  std::size_t n_ = 0;             // number of candidates, each counted once
+  const int *index_ = nullptr;    // their indices
+  Array<int> once_;               // the same, if slots name some of them several times
   Array<char> flags_;
   Array<std::uint32_t> n_once_ = Array<std::uint32_t>(1);
   std::vector<int> index_on_cpu_;

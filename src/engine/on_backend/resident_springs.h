@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The springs of a process's spheres where the engine computes. A step reads one pool and
-// writes the other.
+// The springs of a process's spheres in the memory of the engine. A step reads one pool and writes the other.
 #pragma once
 
 #include "backend/backend.h"
@@ -32,7 +31,7 @@ class ResidentSprings : public Springs {
   };
 
  public:
-  // `counts`: where kernels count what a step used of a pool. Backend and counts must outlive it.
+  // `counts`: the counts in which kernels note how much of a pool a step has used. Backend and counts must outlive this object.
   ResidentSprings(B &backend, const LawTraits &traits, StepCounts *counts) :
       b_(backend), traits_(traits), counts_(counts)
   {
@@ -63,9 +62,9 @@ class ResidentSprings : public Springs {
     count_ = std::move(count);
   }
 
-  // For steps over n candidate spheres, each of which has a place of its own for a single contact. Spheres
-  // with more contacts share the places behind: three for each sphere, as in the corner of a box, or twice
-  // as many as were shared last, and some for spheres with many contacts.
+  // Reserves places for steps over n candidate spheres, each of which has a place of its own for a single contact. Spheres with
+  // more contacts share the places after these: three for each sphere, as in the corner of a box, or twice as many as were
+  // shared last, and some for spheres with many contacts.
   void make_room(std::size_t n, const StepCounts &last)
   {
     n_candidates_ = n;
@@ -75,7 +74,7 @@ class ResidentSprings : public Springs {
     wanted_ = n + std::max(3 * n, 2 * shared) + kSparePlaces;
   }
 
-  // Removes the springs of sphere i on meshes outside of set[i].
+  // Removes the springs of sphere i on meshes that are not in set[i].
   void forget_others(std::size_t n, const std::uint32_t *set)
   {
     if (!traits_.history) return;
@@ -127,11 +126,11 @@ class ResidentSprings : public Springs {
     });
   }
 
-  // Returns the pool that the next step writes, of which no shared place is used.
+  // Returns the pool that the next step writes, with no shared place in use.
   ContactPool next()
   {
-    // A step clears the counter of the pool that it does not write. After one that moves no springs, as in setup, the same pool
-    // is written again.
+    // A step clears the counter of the pool that it does not write. After a step that moves no springs, as in setup, the same
+    // pool is written again.
     if (written_ == 1 - now_) put_one(b_, &counts_->shared_used[written_], 0);
     written_ = 1 - now_;
     Pool &pool = pool_[written_];
@@ -148,9 +147,9 @@ class ResidentSprings : public Springs {
             pool.contacts.data()};
   }
 
-  // Returns the places of both pools: at least as many as there are contacts of the last step and of this one.
+  // Returns the number of places in both pools: at least as many as there are contacts of the last step and of this one.
   std::size_t places() const { return pool_[0].size + pool_[1].size; }
-  // Returns those of the pool that the next step reads.
+  // Returns the number of places in the pool that the next step reads.
   std::size_t places_read() const { return pool_[now_].size; }
 
   void swap()
@@ -200,7 +199,7 @@ class ResidentSprings : public Springs {
     if (pool.size < size) pool = make(with_spare(size));
     b_.copy_in(from.first.at, first_.data(), n);
     b_.copy_in(from.count.at, count_.data(), n);
-    // Later spheres have no springs in this pool.
+    // Spheres after these have no springs in this pool.
     put_all(b_, count_.data() + n, count_.size() - n, 0);
     b_.copy_in(from.pool, pool.springs.data(), size);
     if (traits_.n_extra > 0) b_.copy_in(from.extra, pool.extra.data(), size * traits_.n_extra);
@@ -301,7 +300,7 @@ class ResidentSprings : public Springs {
     return numbered(b_.exclusive_scan(to, n));
   }
 
-  // Room for n springs, keeping those that are there.
+  // Extends the pool to n springs, and keeps the present ones.
   void extend(std::size_t n)
   {
     Pool &pool = pool_[now_];
@@ -313,7 +312,7 @@ class ResidentSprings : public Springs {
     pool = std::move(wider);
   }
 
-  // A place is an int.
+  // Makes a pool of n places. The index of a place must fit in an int.
   Pool make(std::size_t n)
   {
     numbered(n);
@@ -332,7 +331,7 @@ class ResidentSprings : public Springs {
   Pool pool_[2];
   int now_ = 0, written_ = 0;    // the pool that steps read, and the one that the last step wrote
   std::size_t n_candidates_ = 0, wanted_ = 0;
-  std::size_t end_ = 0;    // of what is used of the pool that is read
+  std::size_t end_ = 0;    // end of the used places in the pool that is read
 };
 
 }    // namespace lsdcd

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Results of a step in the memory of the engine's backend: columns by candidate sphere, and the totals and rows
-// that are made of them on request.
+// that are made from them on request.
 #pragma once
 
 #include "engine/broad_phase/candidate_slots.h"
@@ -19,7 +19,7 @@
 
 namespace lsdcd {
 
-// What contacts dissipate, at the places of a pool with n numbers `extra` at each.
+// What contacts dissipate, at the places of a pool with n numbers `extra` at each place.
 struct LossesInPool {
   const Real *extra;
   int n;
@@ -37,11 +37,11 @@ class ResultsOn : public StepResults {
   using Array = typename B::template Array<T>;
 
  public:
-  // The backend must outlive it.
+  // The backend must outlive this object.
   explicit ResultsOn(B &backend) : b_(&backend) {}
 
-  // For a step of n candidates of these; `candidates`: their indices. `adds_later`:
-  // will add_forces() be called? `meshes`: which slots are of which mesh, or null where there is one.
+  // Begins a step of n candidates among these spheres. `candidates`: their indices. `adds_later`: will
+  // add_forces() be called? `meshes`: which slots are of which mesh; null if there is one mesh.
   void begin(const LawTraits &traits, const StepSettings &step, const Spheres &spheres,
              const int *candidates, std::size_t n, bool may_miss, bool adds_later,
              const CandidateSlots<B> *meshes = nullptr)
@@ -74,7 +74,7 @@ class ResultsOn : public StepResults {
         ResultColumns::of(numbers_.data(), room, step.per_sphere, adds_later, n_contacts_.data());
   }
 
-  // Returns where kernels of the step put at most so many records, and contacts that have ended.
+  // Returns where kernels of the step put up to `most` records, and up to `most_ended` contacts that have ended.
   EnergyRecordList begin_records(std::size_t most, std::size_t most_ended,
                                  const EngineSettings &settings)
   {
@@ -108,7 +108,7 @@ class ResultsOn : public StepResults {
     return of;
   }
 
-  // Has a step that has its pool put its results here.
+  // Makes a step write its results here. The pool of the step must be set before.
   void put_into(StepJob &job)
   {
     job.result = columns_;
@@ -119,7 +119,7 @@ class ResultsOn : public StepResults {
     job.uncertain = uncertain_.data();
   }
 
-  // Adds forces and torques to the spheres, in the order in which a step does it by itself.
+  // Adds forces and torques to the spheres, in the order in which a step would add them itself.
   void add_forces(B &b)
   {
     if (n_ == 0) return;
@@ -143,7 +143,7 @@ class ResultsOn : public StepResults {
 
   const Array<int> &n_contacts() const { return n_contacts_; }
 
-  // Copies what the step's settings ask for to the CPU; `contacts`: with gaps.
+  // Copies to the CPU what the step's settings ask for. `contacts`: with gaps.
   void fetch(B &b, const StepContact *contacts)
   {
     touching_.clear();
@@ -153,7 +153,8 @@ class ResultsOn : public StepResults {
     if (step_.per_sphere) fetch_touching(b);
     if (traits_.contacts && step_.contacts) contacts_ = packed_contacts<StepContact>(b, contacts);
   }
-  // The same of what contacts dissipate, where laws keep losses; `extra`: the numbers of the contacts, with gaps.
+  // Does the same for what contacts dissipate, if laws keep losses. `extra`: the numbers of the contacts, with
+  // gaps.
   void fetch_losses(B &b, const Real *extra)
   {
     losses_.clear();
@@ -163,7 +164,7 @@ class ResultsOn : public StepResults {
     fetch_ended(b);
   }
 
-  // The contacts of the last step, where the backend has them; `contacts`: with gaps.
+  // Returns the contacts of the last step in memory of the backend. `contacts`: with gaps.
   NodeContacts node_contacts(const StepContact *contacts, int mesh, const MeshFeaturesView &wall,
                              const Vec3 *velocity) const
   {
@@ -178,7 +179,7 @@ class ResultsOn : public StepResults {
             velocity};
   }
 
-  // Sums on first request.
+  // Returns the totals, which are summed on the first request.
   const WallTotals &totals() override
   {
     if (!totals_known_) sum_totals(*b_);
@@ -215,7 +216,7 @@ class ResultsOn : public StepResults {
            (ranges_.size() + ranges_on_cpu_.size()) * sizeof(TotalsRange);
   }
 
-  // Before other spheres are candidates: totals stay those of the last step.
+  // Prepares for a new candidate search: totals stay those of the last step.
   void detach_from_candidates(B &b)
   {
     know_mesh_totals(b);
@@ -235,9 +236,9 @@ class ResultsOn : public StepResults {
     slots_ = nullptr;
   }
 
-  // The steps of the above. Public because nvcc takes no device lambda from a private function.
+  // The steps of the functions above. Public because nvcc takes no device lambda from a private function.
 
-  // Slots of a sphere at several meshes follow each other, and make one row.
+  // Fetches the touching spheres. The slots of a sphere at several meshes follow each other, and make one row.
   void fetch_touching(B &b)
   {
     const std::size_t n = n_;
@@ -251,7 +252,7 @@ class ResultsOn : public StepResults {
       bool touches = false;
       if (k == 0 || candidates[k - 1] != candidates[k])
         for (std::size_t j = k; j < n && candidates[j] == candidates[k]; j++)
-          touches |= result.n_contacts[j] > 0;    // nothing else is written of others
+          touches |= result.n_contacts[j] > 0;    // other columns are not written if this is 0
       flag[k] = touches;
     });
     b.compact(n, nullptr, flag, chosen.data(), count.data());
@@ -290,7 +291,7 @@ class ResultsOn : public StepResults {
     touching_ = to_cpu(b, rows, n_touching);
   }
 
-  // Returns from[place] of each contact of the step, at its place in the pool.
+  // Returns from[place] for each contact of the step, at its place in the pool.
   template <class T, class From>
   std::vector<T> packed_contacts(B &b, const From &from)
   {
@@ -301,7 +302,7 @@ class ResultsOn : public StepResults {
     const int *first_contact = first_contact_.data();
     copy_all(b, n_contacts, at, n);
     const std::size_t total = b.exclusive_scan(at, n);
-    // The gaps between them were never written.
+    // The gaps between contacts were never written.
     Array<T> packed(total);
     T *to = packed.data();
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
@@ -310,7 +311,7 @@ class ResultsOn : public StepResults {
     return to_cpu(b, packed, total);
   }
 
-  // Kernels put them in any order.
+  // Fetches the contacts that have ended, and sorts them, because kernels write them in any order.
   void fetch_ended(B &b)
   {
     ended_ = to_cpu(b, ended_there_, static_cast<std::size_t>(read_one(b, n_ended_.data())));
@@ -337,10 +338,10 @@ class ResultsOn : public StepResults {
     totals_ = read_sum(0);
   }
 
-  // Starts the sums of each mesh where there are slots, or else those of all.
+  // Starts the sums of each mesh if there are slots, else those of all candidates.
   void start_sums(B &b) { sum(b, slots_ ? slots_->n_meshes() : 1); }
 
-  // Of one part, which is all slots, or of as many as there are meshes. Does not wait.
+  // Starts the sums of one part, which is all candidates, or of as many parts as there are meshes. Does not wait.
   void sum(B &b, int n_parts)
   {
     const std::size_t n_blocks = (n_ + kTotalsBlock - 1) / kTotalsBlock,
@@ -368,7 +369,7 @@ class ResultsOn : public StepResults {
     are_summed_->record(b);
   }
 
-  // Waits for what was started before start_sums() returned, and for nothing behind it.
+  // Waits for what was started before start_sums() returned, and for nothing after it.
   WallTotals read_sum(int part) const
   {
     are_summed_->wait();
@@ -388,7 +389,7 @@ class ResultsOn : public StepResults {
 
   ResultColumns columns_;
   Array<Real> numbers_, heat_, uncertain_;
-  Array<EnergyRows> energy_;    // of each slot, where the law books energy
+  Array<EnergyRows> energy_;    // of each slot, if the law records energy
   Array<char> is_booked_;
   std::vector<EnergyRows> energy_of_mesh_;
   EnergySums<B> energy_sums_;
@@ -400,7 +401,7 @@ class ResultsOn : public StepResults {
 
   WallTotals totals_;
   bool totals_known_ = true;
-  int n_parts_ = 0;    // of the sums that were started; 0: none were
+  int n_parts_ = 0;    // number of sums that were started; 0: none were
   std::size_t n_groups_ = 0;
   Array<TotalsRange> ranges_;                    // of each part
   Array<UnitTotals> block_sums_, group_sums_;    // part after part

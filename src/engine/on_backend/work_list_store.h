@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Memory for the work lists of a step on a GPU, and for its general path.
+// Memory for the work lists of a step on a GPU, and for the general path of the step.
 #pragma once
 
 #include "backend/backend.h"
@@ -17,10 +17,10 @@ class WorkListStore {
   using Array = typename B::template Array<T>;
 
  public:
-  // After a choice of n candidates, of which n_multi_mesh spheres have more than one mesh. `carries_over`: steps are over
-  // all of them, so that items with more than one contact are listed from step to step. `multi_contact`: for each, does
-  // it seem to have them now? Or null. `has_fast_path`: only those that it leaves take the general one. `seen`: the counts
-  // after the last step.
+  // Prepares for steps after a search that found n candidates, of which n_multi_mesh spheres are near more than one mesh.
+  // `carries_over`: steps are over all of them, so that items with more than one contact stay listed from step to step.
+  // `multi_contact`: for each, whether it seems to have more than one now; or null. `has_fast_path`: only items that the
+  // fast path leaves take the general one. `seen`: the counts after the last step.
   void clear(B &b, std::size_t n, std::size_t n_multi_mesh, bool carries_over, bool has_fast_path,
              const char *multi_contact, StepCounts *counts, const StepCounts &seen)
   {
@@ -31,8 +31,8 @@ class WorkListStore {
       room_ = with_spare(n);
       memory_ = Array<int>(4 * room_);
     }
-    // Spheres on the general path share the memory of its threads. Few take it where the wall is flat beside them: after
-    // steps, there is memory for twice as many as did, and no less than what a kernel uses at least.
+    // Spheres on the general path share the memory of its threads. Few take that path if the wall is flat near them: once
+    // steps were done, there is memory for twice as many as took it, and at least for those that a kernel always uses.
     std::size_t n_general = n;
     if (has_fast_path && has_stepped) {
       const std::size_t took = std::max(seen.n_found[0], seen.n_found[1]) +
@@ -41,7 +41,7 @@ class WorkListStore {
     }
     const std::size_t need = general_bytes(n_general, n_multi_mesh);
     if (general_.size() < need || general_.size() / 4 > need) {
-      general_ = Array<char>();    // not beside the new one
+      general_ = Array<char>();    // free it before the new one is made
       general_ = Array<char>(general_bytes(with_spare(n_general), with_spare(n_multi_mesh)));
     }
     int *listed_in = column(3), *first = column(0);    // of the first step
@@ -89,7 +89,7 @@ class WorkListStore {
   int *column(int which) { return memory_.data() + which * room_; }
 
   bool carries_over_ = false;
-  int step_ = 0;    // since the choice
+  int step_ = 0;    // since the candidate search
   std::size_t room_ = 0;
   Array<int> memory_;
   Array<char> general_;    // of threads on the general path

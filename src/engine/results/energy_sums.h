@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums of what contacts do with energy over the slots of a step, by mesh, in fixed point (sum_unit.h).
+// Sums the energy balance over the slots of a step, by mesh, in fixed point (sum_unit.h).
 #pragma once
 
 #include "backend/atomic.h"
@@ -23,12 +23,13 @@ struct EnergyUnits {
   std::int64_t of[kEnergyRows];
 };
 
-// Slots in blocks. A GPU has a thread for each slot, whose warp adds up before it goes to memory; a CPU's goes there once for a block.
+// Slots in blocks. On a GPU each thread has one slot, and its warp adds up before it writes to memory; on a CPU a thread writes once
+// for a block.
 struct BookedSlots {
   std::size_t n;
   const EnergyRows *rows;
   const char *is_booked;
-  const int *mesh;    // of each; null: there is one
+  const int *mesh;    // of each slot; null: there is one mesh
 
   template <class B>
   static constexpr std::size_t kBlock = B::kOnCpu ? kTotalsBlock : 1;
@@ -39,8 +40,8 @@ struct BookedSlots {
   }
 
   LSDCD_FN int mesh_of(std::size_t k) const { return mesh ? mesh[k] : 0; }
-  // Calls see(k) for each booked slot of block `at`, and flush(mesh) behind those of a mesh that others of this block follow. Returns
-  // the last mesh, whose slots are still to be flushed; -1: no slot is booked.
+  // Calls see(k) for each recorded slot of block `at`, and flush(mesh) after the slots of a mesh if slots of another mesh follow in
+  // this block. Returns the last mesh, whose slots are still to be flushed; -1: no slot is recorded.
   template <class B, class See, class Flush>
   LSDCD_FN int for_each(std::size_t at, const See &see, const Flush &flush) const
   {
@@ -55,7 +56,7 @@ struct BookedSlots {
   }
 };
 
-// Sees the ranges of a block; they are clear before.
+// Finds the ranges of a block; they must be clear before.
 template <class B>
 struct SeeEnergy {
   BookedSlots in;
@@ -95,7 +96,7 @@ struct SeeEnergy {
     if (warp.sum_by_key(last >= 0, last, count)) add(last);
   }
 };
-// Adds a block to the sums, which are 0 before.
+// Adds a block to the sums, which must be 0 before.
 template <class B>
 struct SumEnergy {
   BookedSlots in;
@@ -134,7 +135,7 @@ inline EnergyRows energy_of(const EnergyUnits &sums, const EnergyRange &range)
   return rows;
 }
 
-// Sums the booked slots of each mesh to the CPU.
+// Sums the recorded slots of each mesh, and copies the sums to the CPU.
 template <class B>
 class EnergySums {
  public:

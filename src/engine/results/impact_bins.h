@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The spectrum of impacts: how many there are, and what energy they have, in bins of equal ratio. Sums are in fixed point, so that
-// they have the same bits in any order, on any number of threads and of processes.
+// The spectrum of impacts: their number and their energy, in bins of equal ratio. Sums are in fixed point, so that they have the
+// same bits in any order, on any number of threads and of processes.
 #pragma once
 
 #include "backend/atomic.h"
@@ -14,11 +14,11 @@
 
 namespace lsdcd {
 
-// Bins begin at 10^(k/10) units of energy, from 10^-40 on. The last one and the first one have what is beyond them.
+// Bins begin at 10^(k/10) units of energy, from 10^-40 on. The first and the last bin include what is beyond them.
 constexpr int kBinsPerDecade = 10, kFirstDecade = -40, kLastDecade = 40;
 constexpr int kImpactBins = kBinsPerDecade * (kLastDecade - kFirstDecade);
 
-// Returns where bin k begins (energy), to rounding the same on all machines.
+// Returns where bin k begins (energy), which is the same number on all machines, to rounding.
 inline Real begin_of_bin(int k)
 {
   return std::pow(Real(10), static_cast<Real>(k + kFirstDecade * kBinsPerDecade) / kBinsPerDecade);
@@ -31,13 +31,13 @@ inline std::vector<Real> begins_of_bins()
   return begins;
 }
 
-// Energies are whole multiples of 2^-kBinBits of where the bin begins, which are split so that neither part comes to 2^63 before
-// there are 2^31 impacts.
+// Energies are whole multiples of 2^-kBinBits times the beginning of the bin. They are split in two parts, so that neither reaches
+// 2^63 before there are 2^31 impacts.
 constexpr int kLowBits = 30, kBinBits = 48;
 struct ImpactBin {
   std::int64_t count, high, low;
 
-  // Returns the energy of its impacts; `begin`: of the bin.
+  // Returns the energy of the bin's impacts. `begin`: where the bin begins (energy).
   Real energy(Real begin) const
   {
     return begin *
@@ -49,9 +49,9 @@ struct ImpactBin {
 // The bins of one mesh.
 struct ImpactBins {
   ImpactBin *bins;
-  const Real *begins;    // as begins_of_bins()
+  const Real *begins;    // as begins_of_bins() returns them
 
-  // Adds an impact of this energy, which is above 0. Threads may add at once.
+  // Adds an impact of this energy, which is above 0. Several threads may add at the same time.
   LSDCD_FN void add(Real energy) const
   {
     const Real guess = floor(kBinsPerDecade * (log10(energy) - kFirstDecade));

@@ -10,8 +10,8 @@
 
 namespace lsdcd {
 
-// The result of one sphere: in the frame of a mesh until to_box(). force, torque: of the wall on the sphere. n_contacts: contacts that
-// bear, and springs.
+// The result of one sphere, in the frame of a mesh until to_box(). force, torque: those of the wall on the sphere. n_contacts: the
+// number of contacts that bear, and of springs.
 struct alignas(16) SphereResult {
   Vec3 force, torque;
   Real energy;
@@ -23,20 +23,20 @@ struct alignas(16) SphereResult {
 };
 
 struct ResultColumns {
-  int *n_contacts = nullptr;          // of each candidate; where it is 0 the others are not valid
+  int *n_contacts = nullptr;          // of each candidate; if it is 0, the others are not valid
   StridedView<Real> force, moment;    // moment: of force and torque about the origin
   Column<Real> energy, overlap_ratio;
-  StridedView<Real> weighted_point;    // these two only where they are asked for
+  StridedView<Real> weighted_point;    // these two only if they are asked for
   Column<Real> weight;
-  StridedView<Real> torque;    // only where forces are added later
+  StridedView<Real> torque;    // only if forces are added later
 
-  // Numbers of a result.
+  // Returns how many numbers a result has.
   static constexpr std::size_t reals(bool with_point, bool with_torque)
   {
     return 8 + (with_point ? 4 : 0) + (with_torque ? 3 : 0);
   }
 
-  // Columns of `room` results in one array.
+  // Returns columns of `room` results in one array.
   static ResultColumns of(Real *at, std::size_t room, bool with_point, bool with_torque,
                           int *n_contacts)
   {
@@ -84,7 +84,7 @@ struct ResultColumns {
     weight[at] = r.weight;
   }
 
-  // Result number `at`; its torque is the moment.
+  // Returns result number `at`; its torque is the moment.
   LSDCD_FN SphereResult get(std::size_t at) const
   {
     SphereResult r = {};
@@ -100,7 +100,7 @@ struct ResultColumns {
   }
 };
 
-// Sums have three levels: 32 candidates to a block, 32 blocks to a group, then the groups.
+// Sums have three levels: 32 candidates form a block, 32 blocks a group, and the groups are summed last.
 constexpr int kTotalsBlock = 32;
 
 }    // namespace lsdcd

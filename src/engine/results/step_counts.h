@@ -13,11 +13,12 @@ namespace lsdcd {
 
 constexpr std::uint64_t kNoSphere = std::uint64_t(1) << 32;
 
-// Three words begin with overlap / radius as ascending bits, so that the deepest overlap of any thread stays in each. In
-// the first one there follow the mesh and the sphere + 1; 2^28 spheres of a process would not fit into its memory. The
-// two others are written only where the first one was: steps follow each other, so that the second word is always of the
-// sphere in the first. The third, of a sphere between several meshes, has a bit for each mesh that it touches. It may be
-// of another sphere with the same overlap in float: hence the CPU looks for the mesh of the first word in it.
+// Three words, each of which begins with overlap / radius as ascending bits, so that each keeps the deepest overlap of
+// all threads. In the first word the mesh and the sphere + 1 follow; 2^28 spheres of a process would not fit into its
+// memory. The other two words are written only if the first one was: steps follow each other, so that the second word
+// always belongs to the sphere in the first. The third word is for a sphere between several meshes, and has a bit for
+// each mesh that it touches. It may belong to another sphere with the same overlap in float; hence the CPU checks that
+// it contains the mesh of the first word.
 struct DeepestOverlap {
   static constexpr int kRatioAt = 33, kMeshAt = 28;
   static constexpr std::uint64_t kRest = (std::uint64_t(1) << kRatioAt) - 1,
@@ -29,20 +30,20 @@ struct DeepestOverlap {
   }
 };
 
-// The counts up to n_multi_contact are of one choice or step, the others since the CPU last read them.
+// The counts up to n_multi_contact are of the last candidate search or step, the others since the CPU last read them.
 struct StepCounts {
   std::uint32_t n_candidates;
-  int shared_used[2];                    // places, of each pool in the last step that wrote it
+  int shared_used[2];                    // places of each pool in the last step that wrote it
   int n_found[2], n_multi_contact[2];    // of WorkLists, in turn
-  // Spheres left out, a time for each step, as they have more contacts than a scratch memory or as all shared
-  // places were taken: an error.
-  int no_scratch, no_places, unused;    // unused: so that there is no byte that nothing writes
+  // Spheres that were left out, counted in each step, because they have more contacts than a scratch memory, or because
+  // all shared places were taken: an error.
+  int no_scratch, no_places, unused;    // unused: so that no byte is left unwritten
   // kNoSphere less the index of the first sphere beyond the grid's cutoff, or 0: an error.
   std::uint64_t too_large;
-  // kNoSphere less the index of the first sphere that feels more than at the choice, or 0: an error.
+  // kNoSphere less the index of the first sphere with a larger cutoff than at the candidate search, or 0: an error.
   std::uint64_t grown;
-  std::uint64_t uncertified;    // answers
-  // Of the deepest overlap, see DeepestOverlap.
+  std::uint64_t uncertified;    // number of answers
+  // The deepest overlap, see DeepestOverlap.
   std::uint64_t deepest, deepest_step, deepest_meshes;
   // The largest overlap / radius that an uncertified answer may have missed, as ascending bits.
   std::uint64_t uncertain;
@@ -50,7 +51,7 @@ struct StepCounts {
       by_cells;    // lists made in steps, their features; searches of cells
 };
 
-// Returns the counts as the CPU reads them; `first_step`: of those that they are of.
+// Returns the counts as the CPU reads them. `first_step`: number of the first step that they count.
 inline StepDiagnostics diagnostics_of(const StepCounts &seen, std::int64_t first_step)
 {
   using Deepest = DeepestOverlap;

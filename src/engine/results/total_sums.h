@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums over the candidates of a step, in fixed point (sum_unit.h): in which order candidates are, and which others were chosen,
-// changes no bit of them, so that what follows its loads, a servo or a body, moves in the same way after spheres were chosen anew.
+// Sums over the candidates of a step, in fixed point (sum_unit.h). No bit of them depends on the order of candidates, or on which
+// other spheres are candidates. So what follows from the loads, a servo or a body, moves in the same way whenever candidates are
+// searched for.
 #pragma once
 
 #include "backend/atomic.h"
@@ -12,12 +13,12 @@
 
 namespace lsdcd {
 
-// Numbers of a result that are summed: energy, and force and torque on the mesh.
+// The numbers of a result that are summed: energy, and force and torque on the mesh.
 constexpr int kSummands = 7;
 
-// Of the results of a part of the candidates: of one mesh, or of all.
+// The range of the results of a part of the candidates: of one mesh, or of all.
 struct TotalsRange {
-  std::int64_t count;                   // candidates that touch
+  std::int64_t count;                   // number of candidates that touch
   std::uint64_t exponent[kSummands];    // the largest exponent_field() of each number
 
   LSDCD_FN SumUnit unit(int number) const
@@ -55,16 +56,16 @@ LSDCD_FN UnitTotals no_totals()
   return none;
 }
 
-// Candidates in parts, each of which has blocks of all candidates.
+// Candidates in parts. Each part has blocks of all candidates.
 struct TotalsParts {
   ResultColumns result;
   std::size_t n, n_blocks;
   const int *candidates;
   const int *mesh;          // of each candidate; null: there is one part
-  const Real *uncertain;    // of each, or null
+  const Real *uncertain;    // of each candidate, or null
 
   LSDCD_FN int part(std::size_t at) const { return static_cast<int>(at / n_blocks); }
-  // Calls f(candidate) for those of block `at`, of all parts, that are of its part.
+  // Calls f(candidate) for those candidates of block `at`, counted over all parts, that belong to its part.
   template <class F>
   LSDCD_FN void for_each(std::size_t at, const F &f) const
   {
@@ -83,7 +84,7 @@ struct TotalsParts {
   }
 };
 
-// Sees the range of a block; ranges are clear before.
+// Finds the range of a block. The ranges must be clear before.
 struct SeeTotals {
   TotalsParts in;
   TotalsRange *range;    // of each part
@@ -93,7 +94,7 @@ struct SeeTotals {
   {
     std::int64_t count[1] = {0};
     std::uint64_t most[kSummands] =
-        {};    // without the sign, so that what is no number is the largest
+        {};    // without the sign, so that a value that is not a number is the largest
     if (mine)
       in.for_each(at, [&](std::size_t k) {
         if (in.result.n_contacts[k] == 0) return;
@@ -110,12 +111,12 @@ struct SeeTotals {
     if (has)
       for (int j = 0; j < kSummands; j++)
         raise_to(&range[part].exponent[j], most[j] >> (kExponentAt + 1));
-    // Few threads add to the same number at once.
+    // Only few threads add to the same number at the same time.
     if (warp.sum_by_key(has, part, count)) add_signed(&range[part].count, count[0]);
   }
 };
 
-// Puts the sums of a block.
+// Stores the sums of a block.
 struct SumTotals {
   TotalsParts in;
   const TotalsRange *range;
@@ -144,7 +145,7 @@ struct SumTotals {
   }
 };
 
-// Puts the sums of a group of blocks.
+// Stores the sums of a group of blocks.
 struct SumTotalsOfBlocks {
   const UnitTotals *block;
   std::size_t n_blocks, n_groups;
