@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Copies of the wall's features in float, each in the frame of a brick. Searches in mixed
-// and single precision read them. A feature has a copy in every brick that lists it.
+// Copies of the wall's features in float, each in the frame of a brick, for searches in mixed and
+// single precision. A feature has a copy in every brick that lists it.
 #pragma once
 
 #include "base/vec3.h"
@@ -15,12 +15,12 @@ namespace lsdcd {
 
 using Vec3f = Vec3Of<float>;
 
-// The origin is the centre of the brick. Planes and lines are anchored next to it, so that
+// The origin is the centre of the brick. Planes and lines have their anchor next to it, so that
 // coordinates are no larger than a brick even if faces and mesh are.
 
 // Aligned so that a GPU loads a record in parts of 16 bytes.
 
-// Height over a plane: normal . p + offset. Length.
+// A plane by which heights are computed: normal . p + offset. Length.
 struct alignas(16) BrickPlane {
   Vec3f normal;    // unit
   float offset;
@@ -41,13 +41,14 @@ struct BrickVertex {
   std::uint32_t first, count;    // as in VertexRecord
 };
 
-// With these, codes in lists mean records: the kind, and the index in its array.
+// The copies of a grid. With these, a code in a list means a record: its kind, and its index in the
+// array of that kind.
 struct BrickRecordsView {
   const BrickFace *faces;
   const BrickEdge *edges;
   const BrickVertex *vertices;
-  const std::uint32_t *face_of, *edge_of, *vertex_of;    // the feature that it copies
-  const FaceParts *face_parts;                           // in records; with nearest lists
+  const std::uint32_t *face_of, *edge_of, *vertex_of;    // the feature of which it is a copy
+  const FaceParts *face_parts;                           // in records; only with nearest lists
   const Vec3f *edge_inward, *vertex_direction;           // as in MeshFeaturesView
 
   // Calls visit() with each array of a view or of BrickRecords.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A grid as one flat block in memory of its own, aligned as views want it. Moving keeps it
-// where it is.
+// A grid as one flat block in memory of its own, aligned as views require. Moving a FlatGrid leaves
+// the block where it is.
 #pragma once
 
 #include "backend/owned_array.h"
@@ -19,7 +19,7 @@ class FlatGrid {
     flatten(grid, block());
   }
   explicit FlatGrid(const GridParts &grid) : FlatGrid(flat_bytes(grid)) { flatten(grid, block()); }
-  // For a block that the caller fills.
+  // Allocates a block that the caller fills.
   explicit FlatGrid(std::size_t bytes) : memory_(bytes) {}
 
   char *block() { return memory_.data(); }
@@ -30,7 +30,7 @@ class FlatGrid {
   OwnedArray<char, LargeMemory> memory_;
 };
 
-// A flat grid that knows what it was built for, as FlatOf<StepGrid>.
+// A flat grid whose type says for what it was built, as FlatOf<StepGrid>.
 template <class Grid>
 class FlatOf : public FlatGrid {
  public:

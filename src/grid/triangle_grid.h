@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The limit-space grid. Every cell near the wall has a list of what a sphere with its centre
-// in that cell can touch. A complete list has every such feature, a nearest list the N
-// primitives of the wall that are nearest to the cell's centre: the method of Yong et al. (2017), whose Table 1 shows such lists.
-// doc/paper.md compares the two, formula by formula.
+// The limit-space grid. Every cell near the wall has a list of what a sphere with its centre in that cell can touch. A complete
+// list has every such feature. A nearest list has the N primitives of the wall that are nearest to the cell's centre: the method
+// of Yong et al. (2017), whose Table 1 shows such lists. doc/paper.md compares the two, formula by formula.
 #pragma once
 
 #include "base/progress.h"
@@ -24,21 +23,21 @@ constexpr int kBrickSide = 8;    // cells along a brick edge
 constexpr int kBrickCells = kBrickSide * kBrickSide * kBrickSide;
 constexpr int kLayers = kBrickSide;
 
-// An entry of a cell's list: the feature or primitive, and a lower bound of its distance
-// from the cell centre. Lists ascend in (bound, feature).
+// An entry of a cell's list: the feature or primitive, and a lower bound of its distance from the cell centre. Lists are sorted
+// by (bound, feature), ascending.
 struct CellEntry {
   FeatureCode feature;
   float bound;    // length
 };
 
-// The same in one word, for steps: the code's kind is in the two top bits and its index in the lowest ones, as many as
-// the wall needs; between them is the bound, in steps of which those that fit make up a length `largest`. Each operation
-// of steps() gives no less for more, so that
+// The same in one word, for steps. The kind of the code is in the two top bits, and its index in the lowest bits, as many as the
+// wall needs. Between them is the bound in steps; all steps that fit add up to a length `largest`. Each operation of steps() is
+// monotonic, so that
 //
 //   bound <= limit => steps(bound) <= steps(limit),
 //
-// and a search up to a limit finds in a packed list all that it finds in a full one. It may also try an entry whose
-// bound is less than a step past the limit, which costs time and changes no contact.
+// and a search up to a limit finds in a packed list all that it finds in a full one. It may also try an entry whose bound is less
+// than one step past the limit, which costs time but changes no contact.
 struct PackedEntry {
   std::uint32_t word;
 };
@@ -48,7 +47,7 @@ struct EntryPacking {
   std::uint32_t shift = 0;        // of the steps
 
   EntryPacking() = default;
-  // For codes with indices below n; `largest`: a length above 0.
+  // Packs codes with indices below n. `largest`: a length above 0.
   EntryPacking(std::uint64_t n, Real largest)
   {
     while (shift < kFeatureIndexBits && n > std::uint64_t(1) << shift) shift++;
@@ -57,8 +56,8 @@ struct EntryPacking {
   }
 
   LSDCD_FN std::uint32_t most() const { return ~code_bits >> shift; }    // steps that fit
-  // The steps of a bound or a limit, where a word has them: 0 of a negative limit, and all that fit of more and of what is
-  // not a number.
+  // Returns the steps of a bound or a limit as a word has them: 0 for a negative limit, and the largest number for a longer limit
+  // or for one that is not a number.
   LSDCD_FN std::uint32_t steps(Real length) const
   {
     const Real n = length * steps_per_length;
@@ -70,15 +69,14 @@ struct EntryPacking {
 };
 static_assert(sizeof(EntryPacking) == 16, "flat blocks have its bytes, and no padding");
 
-// A cell with one entry holds it inline (count 1, first = its feature code).
+// A cell. A single entry is held inline (count 1, first = its feature code).
 struct Cell {
   std::uint32_t first;
   std::uint32_t count;
 };
 
-// 64 cells of a brick, x fastest, then y: a bit for each that has entries, and where the
-// first of these is in CellListsView::cells. It has 16 bytes, which are loaded at once: a sphere
-// reads one layer of a brick.
+// 64 cells of a brick, x fastest, then y: a bit for each cell that has entries, and the place of the first of these in
+// CellListsView::cells. It has 16 bytes, which are loaded at once: a sphere reads one layer of a brick.
 struct alignas(16) BrickLayer {
   std::uint64_t mask;
   std::uint32_t first_cell;
@@ -90,9 +88,9 @@ struct Brick {
 
 constexpr int kMaxNearest = 32;
 
-// The features in the list of a cell: all that a sphere can touch (complete), the N primitives nearest to the cell's
-// centre, or every primitive within the cutoff, as collisions of bodies ask for. It is one number in cache files
-// and in what kernels compare, so that it has no initial value.
+// Which features the list of a cell has: all that a sphere can touch (complete), the N primitives nearest to the cell's centre,
+// or every primitive within the cutoff, as collisions of bodies need. It is a single number in cache files and in what kernels
+// compare, so it has no initial value.
 class ListKind {
  public:
   ListKind() = default;
@@ -100,13 +98,13 @@ class ListKind {
   // n: 1 to kMaxNearest
   static constexpr ListKind nearest(int n) { return ListKind(n); }
   static constexpr ListKind every() { return ListKind(kEvery); }
-  // Returns the values of `nearest` of scripts and of the library: 0 is complete.
+  // Returns the kind for a value of `nearest` in scripts and in the library: 0 is complete.
   static constexpr ListKind of_option(int n) { return n == 0 ? complete() : nearest(n); }
 
   LSDCD_FN bool is_complete() const { return n_ == 0; }
   LSDCD_FN bool has_primitives() const { return n_ > 0; }
   LSDCD_FN bool is_every() const { return n_ == kEvery; }
-  // Returns how many primitives of a list are read. The next one is a bound of all that was left out.
+  // Returns how many primitives of a list are read. The next one is a bound of all that were left out.
   LSDCD_FN std::uint32_t most() const { return static_cast<std::uint32_t>(n_); }
 
   friend bool operator==(ListKind a, ListKind b) { return a.n_ == b.n_; }
@@ -120,7 +118,7 @@ class ListKind {
 
 // Lists of one kind for all cells.
 struct CellListsView {
-  const std::int32_t *brick_of;    // x fastest; -1 where no brick is near the wall
+  const std::int32_t *brick_of;    // x fastest; -1 if no brick is near the wall
   const Brick *bricks;
   const Cell *cells;
   const CellEntry *entries;
@@ -141,15 +139,15 @@ struct CellListsView {
   }
 };
 
-// Borrowed view of a grid on the CPU or on a device; trivially copyable.
+// A borrowed view of a grid on the CPU or on a device; trivially copyable.
 struct GridView {
   MeshFeaturesView wall;
   Vec3 origin;                // corner of brick (0, 0, 0); length
   Real length, inv_length;    // cell edge
-  Real cutoff;                // largest radius that the lists are complete for
-  Real tolerance;             // closes face, edge and vertex regions; length
-  Real margin;                // a list holds for centres up to this far from its cell, too; length
-  Real outside;    // +1 where normals point out of a closed wall, -1 where in; 0: unknown
+  Real cutoff;                // largest radius for which the lists are complete
+  Real tolerance;             // closes gaps between face, edge and vertex regions; length
+  Real margin;                // lists are valid up to this far from the cell, too; length
+  Real outside;               // +1 if normals point out of a closed wall, -1 if in; 0: unknown
   std::int32_t n_bricks[3];
   ListKind list_kind;
   std::int32_t in_floats;    // codes in lists are of brick records
@@ -169,24 +167,24 @@ struct GridView {
   }
 };
 
-// What any grid is built with.
+// Settings with which any grid is built.
 struct GridSettings {
   Real length = 0;                  // 0: chosen from the mesh, the cutoff and the budget
   Real cutoff = 0;                  // > 0
-  std::size_t memory_budget = 0;    // bytes, of all of it; 0: kListBudget for lists
+  std::size_t memory_budget = 0;    // bytes, of the whole grid; 0: kListBudget for lists
   bool sides = false;               // store what `side in|out` needs
   int nearest = 0;                  // primitives in a list, 1 to kMaxNearest; 0: all that it is for
-  bool for_gpu = false;             // spheres are on a GPU: the chosen length is shorter
-  bool may_coarsen = false;         // a given length may grow, too, until the budget holds
-  // Where centres of spheres can be. The grid is cut off there.
+  bool for_gpu = false;             // spheres are on a GPU: the length that is selected is shorter
+  bool may_coarsen = false;         // a given length may grow, too, until the grid fits the budget
+  // The region in which centres of spheres can be. The grid is cut off there.
   Box within = kNoLimit;
   std::string length_name = "grid";    // of `length`, for messages: what the caller calls it
-  // Called between the parts of a build and on a CPU within them.
+  // Called between the parts of a build, and on a CPU also within them.
   ProgressListener progress;
 };
 
-// A grid serves those that it was built for. Settings, grids and views of each purpose are types of their own, so that a grid of
-// another one does not compile where it cannot serve.
+// A grid serves only the purpose for which it was built. Settings, grids and views of each purpose are types of their own, so
+// that a grid does not compile where it cannot serve.
 //
 // Steps store what they find for many steps, and read packed entries of complete lists.
 struct StepGridSettings : GridSettings {};
@@ -199,7 +197,7 @@ struct BodyGridSettings : GridSettings {};
 
 enum class GridPurpose { steps, queries, bodies };
 
-// The same for any purpose, as what plans and builds grids reads them.
+// Settings for any purpose, in the form that planning and building read.
 struct AnyGridSettings : GridSettings {
   GridPurpose purpose;
   bool in_floats = false;
@@ -217,7 +215,7 @@ struct AnyGridSettings : GridSettings {
     return every ? ListKind::every() : ListKind::of_option(nearest);
   }
   bool is_packed() const { return purpose == GridPurpose::steps && nearest == 0; }
-  // Is the build held within BuildLimit? A length that is given for steps may take its time.
+  // Is the build limited by BuildLimit? A length that is given for steps may take any time.
   bool is_limited() const
   {
     return memory_budget == 0 && !(purpose == GridPurpose::steps && length > 0);
@@ -225,9 +223,8 @@ struct AnyGridSettings : GridSettings {
 };
 constexpr std::size_t kListBudget = 1ull << 30;    // bytes, beside the records of the wall
 
-// A limit of what a build takes. A chosen length grows until the limit holds; a length of the caller is refused.
-// Work is in units of a distance test, 10 to 20 ns of one core; bytes are those beside the
-// records of the wall.
+// A limit of the time and memory of a build. A length that the build selects grows until the limit holds; a length of the caller
+// is refused. Work is in units of a distance test, 10 to 20 ns of one core; bytes do not include the records of the wall.
 struct BuildLimit {
   double work, bytes;
 
@@ -241,14 +238,14 @@ struct ListReport {
   std::size_t bricks = 0, cells = 0, entries = 0;    // cells that have entries
   std::size_t longest = 0;
   Real mean = 0;
-  std::size_t distance_tests = 0;    // feature against cell, at most; after bricking
+  std::size_t distance_tests = 0;    // feature against cell, at most; after the bricks were found
   double seconds = 0;                // of the build alone, without copies to and from a device
 };
 
 struct GridReport {
   Real length = 0, cutoff = 0;
   bool length_chosen = false;
-  Real too_fine = 0;    // the length chosen first, if that took too much; else 0
+  Real too_fine = 0;    // the length selected first, if that took too much; else 0
   ListKind list_kind = ListKind::complete();
   ListReport lists;
   std::size_t records = 0, record_bytes = 0;
@@ -266,8 +263,7 @@ struct CellLists {
   EntryPacking packing;
 };
 
-// Owns a grid and the wall records that it points to, on the host. Every device builds
-// the same bits.
+// Owns a grid and the wall records that it points to, on the host. Every device builds the same bits.
 struct TriangleGrid {
   MeshFeatures wall;
   Vec3 origin = {0, 0, 0};
@@ -285,13 +281,13 @@ struct TriangleGrid {
 // Does the work of build_grid().
 TriangleGrid build_any_grid(const WeldedMesh &mesh, const AnyGridSettings &settings, bool on_cuda);
 
-// The view of a grid of that type.
+// The type of the view of a grid of that type.
 template <class Grid>
 struct ViewOf : GridView {
   explicit ViewOf(const GridView &view) : GridView(view) {}
 };
 
-// A grid that was built with such settings.
+// The type of a grid that was built with such settings.
 template <class Settings>
 struct GridFor : TriangleGrid {
   GridFor() = default;
@@ -305,8 +301,7 @@ using StepGrid = GridFor<StepGridSettings>;
 using QueryGrid = GridFor<QueryGridSettings>;
 using BodyGrid = GridFor<BodyGridSettings>;
 
-// Throws InputError when the grid would not fit the budget; the message says
-// which cell length would.
+// Builds a grid. Throws InputError if the grid would not fit the budget; the message says which cell length would.
 template <class Settings>
 GridFor<Settings> build_grid(const WeldedMesh &mesh, const Settings &settings, bool on_cuda = false)
 {
@@ -316,34 +311,33 @@ GridFor<Settings> build_grid(const WeldedMesh &mesh, const Settings &settings, b
 // Returns the report as lines for the log.
 std::string describe(const GridReport &report);
 
-// One flat, relocatable block of bytes for a whole grid, so that the processes of
-// a node can share one: pack into memory of flat_bytes(), view it anywhere.
-// The block must be 64-byte aligned. A CUDA engine takes views of flat blocks only.
+// A whole grid can be one flat, relocatable block of bytes, so that the processes of a node can share it: pack it into memory of
+// flat_bytes(), and view it anywhere. The block must be 64-byte aligned. A CUDA engine takes only views of flat blocks.
 std::size_t flat_bytes(const TriangleGrid &grid);
-// A grid whose parts lie apart, for flat_bytes() and flatten().
+// A grid whose parts are in separate memory, for flat_bytes() and flatten().
 struct GridParts {
   const MeshFeatures &wall;
   const CellLists &lists;
   const BrickRecords &records;
-  GridView all;    // all but arrays
+  GridView all;    // everything except arrays
 
   GridView view() const { return all; }
 };
 std::size_t flat_bytes(const GridParts &grid);
 void flatten(const GridParts &grid, char *block);
-// Returns the part that any grid of this wall has, with room for the padding of the rest.
+// Returns the bytes of the part that any grid of this wall has, including padding for the rest.
 std::size_t flat_wall_bytes(const TriangleGrid &grid);
-// Returns the bytes that the whole grid may take, by the settings.
+// Returns the bytes that the whole grid may take according to the settings.
 std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid);
 void flatten(const TriangleGrid &grid, char *block);
 // Flattens the grid into `block`, and frees each array of the grid once it is copied.
 void move_flat(TriangleGrid &grid, char *block);
 GridView flat_view(const char *block);
 
-// Returns the view of a flat block as a view of the block's copy at `to`.
+// Returns the view of a flat block as a view of the copy of that block at `to`.
 GridView moved_view(const GridView &view, const char *to);
 
-// Returns the centre of the brick at a index in the table.
+// Returns the centre of the brick at an index in the table.
 Vec3 brick_centre(const TriangleGrid &grid, std::size_t index);
 
 }    // namespace lsdcd

@@ -399,8 +399,7 @@ class EngineOn : public WallEngine {
   std::int64_t first_step_ = 0;    // number of the first step since counts were cleared
   ResidentSprings<B> springs_;
 
-  ResultsOn<B> results_{b_},
-      next_results_{b_};    // of the last step, and of one submitted beside it
+  ResultsOn<B> results_{b_}, next_results_{b_};    // of the last step, and of one submitted beside
   WorkListStore<B> work_lists_;
   friend class MovingNodes<B>;
   std::vector<std::unique_ptr<MovingNodes<B>>> nodes_;    // of each mesh; empty if no nodes move

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// From the settings of an engine to its compiled laws: the smallest ones that have all effects asked for.
+// Selects the compiled laws for the settings of an engine: the smallest ones that have all effects asked
+// for.
 #pragma once
 
 #include "engine/step/run_compiled_law.h"
@@ -12,7 +13,7 @@
 
 namespace lsdcd {
 
-// For with_..._law(): compiles a law with the effects of the wall.
+// Compiles a law with the effects of the wall; an argument for with_..._law().
 template <class B, WallKernels kernels>
 struct CompileLaw {
   WallEffects effects;
@@ -27,8 +28,8 @@ struct CompileLaw {
   }
 };
 
-// The groups of laws that are compiled together, a source file each and for each backend
-// (laws/CMakeLists.txt).
+// Each of the following functions has a group of laws that are compiled together, with a source file for
+// each group and each backend (laws/CMakeLists.txt).
 template <class B>
 CompiledLaw<B> granular_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
@@ -46,7 +47,7 @@ CompiledLaw<B> energy_records_law(const ContactLaw &law, const WallEffects &effe
 template <class B>
 CompiledLaw<B> impacts_law(const ContactLaw &law, const WallEffects &effects);
 
-// One law of the settings.
+// Returns the compiled form of one law of the settings.
 template <class B>
 CompiledLaw<B> law_for(const EngineSettings &settings, const ContactLaw &law)
 {
@@ -61,7 +62,7 @@ CompiledLaw<B> law_for(const EngineSettings &settings, const ContactLaw &law)
   return plain_law<B>(law, effects);
 }
 
-// All of them.
+// Returns the compiled forms of all laws of the settings.
 template <class B>
 CompiledLaw<B> law_for(const EngineSettings &settings)
 {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A compiled contact law: its numbers as bytes, and a function for the loop over spheres. So engines are compiled
-// once, and laws add that loop only.
+// A compiled contact law: its numbers as bytes, and a function for the loop over spheres. So engines are compiled once, and each law
+// adds only that loop.
 #pragma once
 
 #include "contact/feature_turn.h"
@@ -19,7 +19,7 @@ namespace lsdcd {
 
 class LawBytes {
  public:
-  LawBytes() = default;    // of no law
+  LawBytes() = default;    // without a law
   template <class Law>
   explicit LawBytes(const Law &law)
   {
@@ -32,7 +32,7 @@ class LawBytes {
   {
     return *std::launder(reinterpret_cast<const Law *>(bytes_));
   }
-  // The same in a kernel, which has no launder.
+  // Returns the law in a kernel, which has no launder.
   template <class Law>
   LSDCD_FN const Law &in_kernel() const
   {
@@ -43,16 +43,16 @@ class LawBytes {
   alignas(std::max_align_t) unsigned char bytes_[256];
 };
 
-// One law of a table.
+// A law of a table.
 struct LawEntry {
   LawBytes law;
   Real pull_off;    // see ContactLaw::pull_off()
 };
 
-// The law of each mesh and kind of sphere. Where a wall has one law, all indices are 0.
+// The laws by mesh and kind of sphere. If a wall has one law, all indices are 0.
 struct LawsView {
   const LawEntry *entries = nullptr;
-  int of_mesh = 0;    // entries of a mesh
+  int of_mesh = 0;    // number of entries of a mesh
   SphereKinds kind;
 
   LSDCD_FN const LawEntry &of(int mesh, int of_kind) const
@@ -63,19 +63,19 @@ struct LawsView {
 
 // The effects that a kernel has.
 struct WallEffects {
-  // Takes spheres to the frame of a mesh, which moves or is one of several, or whose surface moves.
+  // Spheres are transformed to the frame of a mesh, which moves, or is one of several, or has a surface that moves.
   bool posed;
-  bool contacts, nodes;    // keeps contacts; nodes of a mesh move
-  bool records = false;    // EnergyRecord, of impacts and of what is dissipated
+  bool contacts, nodes;    // contacts are kept; nodes of a mesh move
+  bool records = false;    // EnergyRecord is written, of impacts and of what is dissipated
   bool losses = false;     // see ContactLaw::keeps_losses; with records
 };
 
-// Is it of grains that may be no spheres (shape_law.h)?
+// Is the law for grains that may be no spheres (shape_law.h)?
 template <class Law>
 struct IsShapeLaw : std::false_type {
 };
 
-// What a law with books and records has beside its sub-models.
+// The number that a law with energy balance and records has in addition to its sub-models.
 template <bool kLosses_>
 struct LossesOnWall {
   static constexpr bool kLosses = false;
@@ -86,20 +86,21 @@ struct LossesOnWall<true> {
   bool keeps_losses;    // see ContactLaw
 };
 
-// kEnergy: books what contacts do with energy, and keeps KeptForces of each. kRecords: puts an EnergyRecord where one is due.
+// kEnergy: the law records what contacts do with energy, and keeps KeptForces of each contact. kRecords: it writes an EnergyRecord
+// when one is due.
 template <class Law, bool kPosed_, bool kKeepsContacts_, bool kNodes_ = false,
           bool kEnergy_ = false, bool kRecords_ = false>
 struct OnWall : Law, LossesOnWall<kEnergy_ && kRecords_> {
   static constexpr bool kPosed = kPosed_, kKeepsContacts = kKeepsContacts_, kNodes = kNodes_,
                         kEnergy = kEnergy_, kRecords = kRecords_;
   static constexpr bool kShapes = IsShapeLaw<Law>::value;
-  // Does a contact store numbers beside its shear displacement? See n_stored().
+  // Does a contact store numbers in addition to its shear displacement? See n_stored().
   static constexpr bool kStoresExtra = Law::kExtra > 0 || kEnergy;
-  // A setup stores what contacts keep; it does not move their springs.
+  // A setup stores what contacts keep, but does not move their springs.
   static constexpr bool kSetsUp = kEnergy || kRecords;
 };
 
-// Returns how many numbers of a contact engines store beside its shear displacement: those of the law, then KeptForces,
+// Returns how many numbers of a contact engines store in addition to its shear displacement: those of the law, then KeptForces,
 // KeptAtNodes and KeptLosses.
 template <class Law>
 LSDCD_FN int n_stored(const Law &law)
@@ -109,14 +110,13 @@ LSDCD_FN int n_stored(const Law &law)
   return n;
 }
 
-// The kernels that a law has, by their effects. plain: {none}. moving_or_both: {moving}, {moving + contacts}.
-// plain_or_both: {none}, {moving + contacts}. Where a wall has contacts alone it takes {moving + contacts}. Beside each
-// of these is {moving + contacts + nodes}, so that walls whose nodes do not move have no instruction for them.
-// energy: {moving + contacts + energy}; energy_records: the same with records; impacts: {moving + contacts + records}; each also with
-// nodes.
+// The kernels of a law, by their effects. plain: {none}. moving_or_both: {moving}, {moving + contacts}. plain_or_both: {none},
+// {moving + contacts}. A wall that has only contacts takes {moving + contacts}. For each of these there is also {moving + contacts +
+// nodes}, so that walls whose nodes do not move have no instruction for them. energy: {moving + contacts + energy}; energy_records:
+// the same with records; impacts: {moving + contacts + records}; each also with nodes.
 enum class WallKernels { plain, moving_or_both, plain_or_both, energy, energy_records, impacts };
 
-// Calls make(law) with the law that has the effects.
+// Calls make(law) with the form of the law that has these effects.
 template <WallKernels kernels, class Law, class Make>
 auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
 {
@@ -146,7 +146,7 @@ struct LawTraits {
   bool history, heat, contacts, energy, records;
   bool losses;     // does a contact keep KeptLosses, behind all other numbers?
   bool sets_up;    // does a setup store what contacts keep?
-  // n_vectors, at most kMostVectors: of the extra numbers those that come first, three each
+  // n_vectors, at most kMostVectors: how many vectors, of three numbers each, the extra numbers begin with.
   int n_extra, n_vectors;
 };
 

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the contacts of a sphere do with energy in a step: laws with kEnergy alone have these lines.
-//
-// A step goes from the last places to these, with the velocities that are there now, and forces change on the way from what
-// they were to what they are: its work is half of each, -dt/2 (F_old + F) v. A wall that turns is seen at
-// where the sphere is for F, and for F_old at where it was, in the frame of then. A contact keeps the forces of its step
-// (KeptForces), and the next step of the sphere books their second half, whether the contact goes on, hands its spring over
-// or has ended. Causes are computed of the parts of a force, not as what is left.
+// What the contacts of a sphere do with energy in a step. Only laws with kEnergy have these lines.
+// A step goes from the last places to the present ones with the present velocities, while forces change from their old values
+// to the present ones. Its work is therefore half of each: -dt/2 (F_old + F) v. For F a wall that turns is seen from where the
+// sphere is now, and for F_old from where the sphere was, in the frame of that time. A contact keeps the forces of its step
+// (KeptForces), and the next step of the sphere adds their second half to the energy balance, whether the contact goes on,
+// transfers its spring or has ended. Causes are computed from the parts of a force, and not as the rest that is left over.
 #pragma once
 
 #include "engine/step/contact_forces.h"
@@ -16,10 +15,10 @@ namespace lsdcd {
 
 // The motion of sphere and wall at a contact, in the frame of the mesh.
 struct RelativeMotion {
-  Vec3 wall, spin;    // of the wall's material, as if it reached to the centre of the sphere
-  Vec3 v, omega;      // of the sphere, less these
+  Vec3 wall, spin;    // of the wall's material, as if it reached to the sphere's centre
+  Vec3 v, omega;      // of the sphere, less those of the wall
 
-  // Turns all back to the frame of the mesh a step ago.
+  // Returns the motion turned back to the frame of the mesh a step ago.
   LSDCD_FN RelativeMotion before(const Vec3 &angular, Real dt) const
   {
     const auto turned = [&](const Vec3 &a) { return a + dt * cross(angular, a); };
@@ -32,8 +31,8 @@ struct RelativeMotion {
   }
 };
 
-// `from_foot`: to the sphere's centre, from where the contact is on the wall. `before`: the wall's at the place, in the frame of the
-// mesh, where the sphere was a step ago.
+// Returns the motion of sphere and wall. `from_foot`: the vector from the contact point on the wall to the sphere's centre. `before`: the
+// motion is taken a step ago, with the wall's velocity at the place, in the frame of the mesh, where the sphere was then.
 template <class Springs>
 LSDCD_FN RelativeMotion relative_motion(const ForceSettings &settings,
                                         const SphereStateWith<Springs> &s, const Vec3 &n,
@@ -57,14 +56,14 @@ LSDCD_FN RelativeMotion relative_motion(const ForceSettings &settings,
   return m;
 }
 
-// What one spring with dashpot and slider loses in a step.
+// The energy that a spring with dashpot and slider loses in a step.
 struct SpringLoss {
   Real slider, dashpot, stiffness;
 };
 
-// `path`: how far the contact has slipped (or turned) in the step; `now`, `old`: the whole force (or torque) of the family;
-// `old_spring`, `old_k`: of its spring. Where the limit cuts off a part of the path, the whole force is lost along it, and
-// what the dashpot does along the rest is the slider's, too.
+// Returns what a spring loses. `path`: how far the contact has slipped (or turned) in the step; `now`, `old`: the whole force (or torque)
+// of the sub-model; `old_spring`, `old_k`: force and stiffness of its spring. If the limit cuts off a part of the path, the whole force
+// is lost along that part, and what the dashpot does along the rest also counts for the slider.
 LSDCD_FN SpringLoss spring_loss(const SpringPart &spring, bool slides, const Vec3 &path,
                                 const Vec3 &now, const Vec3 &old, const Vec3 &old_spring,
                                 Real old_k)
@@ -84,7 +83,7 @@ LSDCD_FN SpringLoss spring_loss(const SpringPart &spring, bool slides, const Vec
                    0.5 * dot(old_spring, spring.ends - spring.begins);
   return loss;
 }
-// The same of a contact that has ended, whose limit has become 0.
+// Does the same for a contact that has ended, whose limit has become 0.
 LSDCD_FN SpringLoss spring_loss_at_end(const Vec3 &path, const Vec3 &old, const Vec3 &old_spring,
                                        Real old_k)
 {
@@ -93,7 +92,7 @@ LSDCD_FN SpringLoss spring_loss_at_end(const Vec3 &path, const Vec3 &old, const 
   return spring_loss(spring, true, path, {0, 0, 0}, old, old_spring, old_k);
 }
 
-// Returns what a contact keeps whose force `f` has these parts, but for `held`; `weight`: of the contact.
+// Returns what a contact keeps whose force `f` has these parts, without `held`. `weight`: that of the contact.
 template <class Law>
 LSDCD_FN KeptForces kept_of(const Law &, const Vec3 &n, const FullForce &f, const ForceParts &parts,
                             Real weight, Real distance, Real arm)
@@ -119,7 +118,7 @@ LSDCD_FN KeptForces kept_of(const Law &, const Vec3 &n, const FullForce &f, cons
   return now;
 }
 
-// Returns what a contact holds. In a setup the limits of friction cut forces, but springs stay as they are.
+// Returns the elastic energy that a contact holds. In a setup the limits of friction cut forces, but springs stay as they are.
 template <class Law, class C>
 LSDCD_FN Real held_of(const Law &law, const C &c, const FullForce &f, Real weight,
                       const KeptForces &now)
@@ -128,7 +127,7 @@ LSDCD_FN Real held_of(const Law &law, const C &c, const FullForce &f, Real weigh
                   : weight * law.normal_energy(c, c.overlap) + springs_energy<Law>(now);
 }
 
-// Add what sliding loses; with rolling and twisting.
+// Add what sliding loses; the second function also adds what rolling and twisting lose.
 LSDCD_FN void add_losses(const SpringLoss &sliding, EnergyRows &rows)
 {
   rows[EnergyRow::slider] += sliding.slider;
@@ -144,7 +143,7 @@ LSDCD_FN void add_losses(SpringLoss sliding, const SpringLoss &rolling, const Sp
   add_losses(sliding, rows);
 }
 
-// Returns the stored energy of springs whose forces these are, less the second half of their work in a step with such velocities.
+// Returns the stored energy of springs with these forces, less the second half of their work in a step with these velocities.
 template <class Law>
 LSDCD_FN Real energy_left(const Law &, const KeptForces &old, const Vec3 &slip, const Vec3 &rolling,
                           Real twisting, Real dt)
@@ -155,7 +154,8 @@ LSDCD_FN Real energy_left(const Law &, const KeptForces &old, const Vec3 &slip, 
   return springs_energy<Law>(old) - 0.5 * dt * power;
 }
 
-// Books the springs of a contact. `weight`: of the contact; `old`: what it has taken over, in the plane of its normal.
+// Adds the springs of a contact to the energy balance. `weight`: that of the contact; `old`: what it has taken over, in the plane of its
+// normal.
 template <class Law, class C>
 LSDCD_FN void book_springs(const Law &law, const C &c, const ForceParts &parts, Real weight,
                            const KeptForces &now, const KeptForces &old, EnergyRows &rows)
@@ -185,7 +185,7 @@ LSDCD_FN void book_springs(const Law &law, const C &c, const ForceParts &parts, 
   }
 }
 
-// Books the springs of a contact that has ended.
+// Adds the springs of a contact that has ended to the energy balance.
 template <class Law>
 LSDCD_FN void book_springs_at_end(const Law &, const KeptForces &old, const Vec3 &n,
                                   const Vec3 &slip, const Vec3 &rolling, Real twisting, Real dt,
@@ -203,12 +203,13 @@ LSDCD_FN void book_springs_at_end(const Law &, const KeptForces &old, const Vec3
     add_losses(sliding, rows);
 }
 
-// add() takes each contact of the step, then close() those of the last one.
+// The energy balance of a sphere at one mesh in a step. add() takes each contact of the step, and then close() takes those of the last
+// one.
 template <class Law>
 struct EnergyBook {
   EnergyRows rows;
 
-  // Stores what the contact keeps among its numbers `to`, behind those of the law.
+  // Stores what the contact keeps in its numbers `to`, after those of the law.
   template <class Springs>
   LSDCD_FN void add(const Law &law, const MeshFeaturesView &wall, const ForceSettings &settings,
                     const SphereStateWith<Springs> &s, const BookedContact<Law> &b,
@@ -241,7 +242,7 @@ struct EnergyBook {
     book_springs(law, c, b.parts, b.weight, now, old, rows);
   }
 
-  // Books the second half of the last step's contacts with this mesh, and the rest of those that have ended.
+  // Adds the second half of the last step's contacts with this mesh, and the rest of those that have ended.
   template <class Springs>
   LSDCD_FN void close(const Law &law, const MeshFeaturesView &wall, const ForceSettings &settings,
                       const SphereStateWith<Springs> &s, const MarksOf<Law> &marks,
@@ -259,7 +260,7 @@ struct EnergyBook {
       Vec3 n = s.springs[k].normal;
       RelativeMotion m = relative_motion(settings, s, n, old.distance * n, true);
       if (settings.pose.placed) m = m.before(settings.wall_angular, dt);
-      Vec3 turn = m.omega;    // less that of nodes, as the law sees it
+      Vec3 turn = m.omega;    // less the spin of nodes, as the law sees it
       if constexpr (Law::kNodes)
         if (settings.nodes.velocity) {
           const KeptAtNodes at = kept_at_nodes(law, s, k);
@@ -281,8 +282,9 @@ struct EnergyBook {
     }
   }
 
-  // Keeps what contact number `at` with this mesh dissipates, of which the rows were `before`, with what the contact has of the last step
-  // that goes on in it: that which it is the first to take over whole. `extra`: of all contacts with this mesh.
+  // Stores what contact number `at` with this mesh has dissipated since the rows were `before`. Adds the sum of the contact of the last
+  // step that continues in it, which is the one that it is the first to take over completely. `extra`: the numbers of all contacts with
+  // this mesh.
   template <class Springs>
   LSDCD_FN void keep_losses(const Law &law, const ForceSettings &settings,
                             const SphereStateWith<Springs> &s, const Transfer &in,
@@ -300,10 +302,10 @@ struct EnergyBook {
     store(law, now, extra, at);
   }
 
-  // The rest is for add() and close(), and for those of grains that are no spheres (grain_energy.h).
+  // The following functions are for add() and close(), and for those of grains that are no spheres (grain_energy.h).
 
-  // Puts what contact k of the last step has lost, of which the rows were `before`: into the list of records, and to the contact of this
-  // step in which it goes on, or into the list of those that have ended. `point`: of the wall, where it was.
+  // Writes what contact k of the last step has lost since the rows were `before`: to the list of records, and to the contact of this step
+  // in which it continues, or to the list of ended contacts. `point`: its place on the wall.
   template <class Springs>
   LSDCD_FN void put_losses(const Law &law, const ForceSettings &settings,
                            const SphereStateWith<Springs> &s, int k, const EnergyRows &before,
@@ -364,7 +366,8 @@ struct EnergyBook {
     return at;
   }
 
-  // Returns what the old contact in.from hands to the one with this normal, as memory_from_last_step() hands on its springs.
+  // Returns what the old contact in.from transfers to the contact with this normal, in the same way as memory_from_last_step() transfers
+  // springs.
   template <class Springs>
   LSDCD_FN static KeptForces handed_on(const Law &law, const ForceSettings &settings,
                                        const SphereStateWith<Springs> &s, const Transfer &in,
@@ -373,7 +376,7 @@ struct EnergyBook {
     KeptForces old = kept(law, s, in.from);
     Vec3 *const vectors[] = {&old.friction, &old.friction_spring, &old.rolling,
                              &old.rolling_spring};
-    [[maybe_unused]] Vec3 was = {0, 0, 0};    // the normal that vectors have, of a mesh with nodes
+    [[maybe_unused]] Vec3 was = {0, 0, 0};    // normal of the kept vectors, for a mesh with nodes
     if constexpr (Law::kNodes)
       if (settings.nodes.velocity && is_own(s.springs, in.from))
         was = kept_at_nodes(law, s, in.from).normal;
@@ -412,8 +415,8 @@ struct EnergyBook {
         half * (by.arm - by.distance) * dot(by.friction, cross(m.spin, n));
   }
 
-  // Adds to a motion that of nodes, and returns their spin, less which the law sees a sphere roll. Nodes get forces alone, so that
-  // half of what the torque of rolling and twisting does by that spin is lost.
+  // Adds the motion of nodes to `m`, and returns their spin, relative to which the law sees a sphere roll. Nodes get only forces, so that
+  // half of what the torques of rolling and twisting do by that spin is lost.
   LSDCD_FN Vec3 add_nodes(const NodeField &nodes, const NodeShares &at, const Vec3 &n,
                           const KeptForces &by, Real dt, RelativeMotion &m)
   {
@@ -431,7 +434,7 @@ struct EnergyBook {
         0.5 * by.elastic * dot(n, field_at(node_shares(wall, feature, point), receded));
   }
 
-  // Books what a contact that takes over no other begins with. Surfaces that adhere jump into contact where they touch.
+  // Adds the energy with which a contact begins that takes over no other. Surfaces that adhere jump into contact when they touch.
   template <class Springs>
   LSDCD_FN void begin(const Law &law, const SphereStateWith<Springs> &s,
                       const BookedContact<Law> &b)
@@ -446,7 +449,7 @@ struct EnergyBook {
         rows[EnergyRow::inserted] -= b.weight * law.normal_energy(b.c, before);
     }
   }
-  // Surfaces that adhere let go at the pull-off.
+  // Adds what is lost as surfaces that adhere let go at the pull-off.
   template <class Springs>
   LSDCD_FN void let_go(const Law &law, const SphereStateWith<Springs> &s, const KeptForces &old)
   {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Force and torque on one sphere by its contacts.
+// Computes the force and torque on one sphere by its contacts.
 #pragma once
 
 #include "backend/atomic.h"
@@ -22,20 +22,19 @@
 
 namespace lsdcd {
 
-// One sphere's state at the start of the step, in the frame of the mesh.
+// The state of one sphere at the start of the step, in the frame of the mesh.
 template <class Springs>
 struct SphereStateWith {
   Vec3 x, v, omega;
   Real radius, mass;
   Springs springs;      // of the last step
-  const Real *extra;    // n_stored(law) numbers for each of them
+  const Real *extra;    // n_stored(law) numbers for each spring
   int n_springs;
-  Real temperature;    // read only where the law has heat
+  Real temperature;    // read only if the law has heat
 };
 using SphereState = SphereStateWith<const Spring *>;
 
-// Outputs of a sphere that only some laws have: each is written where the law has history, extra numbers beside
-// it, heat, contacts.
+// Outputs of a sphere that only some laws have. Each is written if the law has it: history, numbers in addition to that, heat, contacts.
 struct SphereSink {
   Spring *springs;          // one per contact
   Real *extra;              // n_stored(law) per contact
@@ -43,7 +42,7 @@ struct SphereSink {
   StepContact *contacts;    // one per contact
 };
 
-// Which contacts of the last step a sphere's contacts take over.
+// Sets of contacts of the last step: those that this step's contacts have taken over, and those that continue.
 struct EnergyMarks {
   std::uint64_t taken[kMaxContacts / 64] = {}, goes_on[kMaxContacts / 64] = {};
 
@@ -57,7 +56,8 @@ struct EnergyMarks {
   }
 };
 
-// Beside that, the contacts of this step, to which what is lost by those of the last one is added; `extra`: n_stored(law) numbers of each.
+// The same sets, with the contacts of this step, to which the losses of the last step's contacts are added. `extra`: n_stored(law) numbers
+// of each contact.
 struct LossMarks : EnergyMarks {
   int sphere = 0;
   const Spring *springs = nullptr;
@@ -67,17 +67,17 @@ struct LossMarks : EnergyMarks {
 template <class Law>
 using MarksOf = std::conditional_t<Law::kLosses, LossMarks, EnergyMarks>;
 
-// Books what the contacts of a sphere with one mesh do with energy in a step (contact_energy.h).
+// Computes the energy balance of the contacts of a sphere with one mesh in a step (contact_energy.h).
 template <class Law>
 struct EnergyBook;
 
-// Where kernels put what becomes of energy, in any order.
+// The lists to which kernels write energy records, in any order.
 struct EnergyRecordList {
   EnergyRecord *at;    // null: none are wanted
   int *n;
   Real impact_speed;     // impacts that are faster are recorded; 0: none are
   Real velocity_unit;    // see EngineSettings
-  // Of contacts that have ended, where laws keep losses.
+  // Contacts that have ended, if laws keep losses.
   EndedContact *ended;
   int *n_ended;
 
@@ -93,45 +93,44 @@ struct BookingSink : SphereSink {
   EnergyBook<Law> *book;
   EnergyMarks *marks;
   EnergyRecordList records;
-  bool *begins;    // set where a contact may begin by an impact, of a sphere that may have several
+  bool *begins;    // set if a contact may begin by an impact, of a sphere that may have several
   Real friction_heat;
 };
 template <class Law>
 using SinkOf = std::conditional_t<Law::kSetsUp, BookingSink<Law>, SphereSink>;
 
-// A contact as it is booked: arguments and result of the law, what the force is made of, and its weight.
+// A contact as the energy balance reads it: arguments and result of the law, the parts of the force, and the weight of the contact.
 template <class Law>
 struct BookedContact {
   Contact c;
   FullForce f;
   ForceParts parts;
   Real weight;
-  Real distance, arm;    // of the centre from the wall, and of friction
+  Real distance, arm;    // distance of the centre from the wall, and arm of friction
   FeatureCode feature;
-  const NodeShares &nodes;    // in the closest point; read only where its nodes move
+  const NodeShares &nodes;    // in the closest point; read only if its nodes move
 };
 
 struct ForceSettings {
   SearchSettings search;
-  std::uint32_t mesh;    // of the wall's
+  std::uint32_t mesh;    // number in the wall
   Real dt;
   bool update;
-  bool stores;        // what contacts keep: `update`, or also in a setup where energy is booked
+  bool stores;        // what contacts keep: `update`, or also in a setup if energy is recorded
   bool with_point;    // fill weighted_point and weight
-  Real wall_temperature;    // read only where the law has heat
-  SurfaceMotion surface;    // read only where the surface moves
-  bool surface_moves;       // in itself; else `surface` is left out, which changes no bit
+  Real wall_temperature;    // read only if the law has heat
+  SurfaceMotion surface;    // read only if the surface moves
+  bool surface_moves;       // by itself; else `surface` is not read, which changes no bit
   Pose pose;                // read only by laws for walls that move
-  // Velocities of spheres are those of half a step ago: `back` is dt / 2, and 0 in a setup (time). The velocity
-  // of a wall that turns is taken at that time, too. Else a sphere at rest on a turntable would seem to slip
-  // outward, and friction would draw it in.
+  // Velocities of spheres are those of half a step ago: `back` is dt / 2, and 0 in a setup (time). The velocity of a wall that turns is
+  // taken at the same time; otherwise a sphere at rest on a turntable would seem to slip outward, and friction would pull it in.
   Real back;
-  Vec3 wall_velocity, wall_angular;    // of the pose then, in the frame of the mesh
-  WearModel wear;                      // read only where contacts are kept
-  bool gives_way;         // the mesh is a rigid body; read only where contacts are kept
-  Mobility mobility;      // of it
-  NodeField nodes;        // where its nodes move; read only by laws for these
-  const Vec3 *receded;    // see StepSettings, of each vertex; null: none has
+  Vec3 wall_velocity, wall_angular;    // of the pose at that time, in the frame of the mesh
+  WearModel wear;                      // read only if contacts are kept
+  bool gives_way;                      // the mesh is a rigid body; read only if contacts are kept
+  Mobility mobility;                   // of the body
+  NodeField nodes;                     // if its nodes move; read only by laws for these
+  const Vec3 *receded;                 // see StepSettings, for each vertex; null: none has receded
 };
 
 // Returns the settings of one mesh.
@@ -162,7 +161,7 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   return s;
 }
 
-// Returns whether force_settings() of two steps are equal where mesh and engine are.
+// Returns whether force_settings() of two steps are equal, for the same mesh and engine.
 inline bool are_alike(const StepSettings &a, const StepSettings &b)
 {
   const auto is_of_wall = [](const StepSettings &s) {
@@ -173,14 +172,14 @@ inline bool are_alike(const StepSettings &a, const StepSettings &b)
          a.wall_temperature == b.wall_temperature;
 }
 
-// A mesh in a step.
+// A mesh as a step reads it.
 struct MeshWork {
   GridView grid;
   ForceSettings settings;
 };
 
-// Memory of contact i at the start of the step: that of the last step, turned with the normal, and about the
-// normal with a surface that turns.
+// Returns the memory of contact i at the start of the step: that of the last step, turned with the normal, and turned about the normal
+// with a surface that turns.
 template <class Law, class Set, class Springs>
 LSDCD_FN auto memory_from_last_step(const Law &law, const ForceSettings &settings, const Set &set,
                                     int i, const SphereStateWith<Springs> &s, const Transfer &in)
@@ -211,7 +210,7 @@ LSDCD_FN auto memory_from_last_step(const Law &law, const ForceSettings &setting
   return memory;
 }
 
-// Writes what the law keeps beside the shear displacement: n_extra(law) numbers, vectors first.
+// Writes what the law keeps in addition to the shear displacement: n_extra(law) numbers, vectors first.
 template <class Law, class Memory>
 LSDCD_FN void store_extra(const Law &law, const Memory &memory, Real *to)
 {
@@ -222,22 +221,22 @@ LSDCD_FN void store_extra(const Law &law, const Memory &memory, Real *to)
     if (law.stores(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
 }
 
-// Is a contact on the feature, of this mesh of the wall, on which the spring was that it takes over?
+// Returns whether a contact is on the feature, of this mesh of the wall, that had the spring which it takes over.
 template <class Springs>
 LSDCD_FN bool stays(const Springs &springs, const Transfer &in, FeatureCode feature,
                     std::uint32_t mesh)
 {
   return in.from >= 0 && springs[in.from].feature == feature && springs[in.from].mesh == mesh;
 }
-// Is a contact of a sphere nearly aligned with that of the spring that it takes over? If that was left it has moved here: over a seam,
-// over several triangles in one step, or to another mesh.
+// Returns whether a contact of a sphere is nearly aligned with that of the spring which it takes over. If that contact has ended, it has
+// moved here: over a seam, over several triangles in one step, or to another mesh.
 LSDCD_FN bool may_have_moved(const Transfer &in)
 {
   return in.from >= 0 && in.part > kMoved;
 }
 
-// Returns what the contact of the last step takes that the only one of a sphere has moved from, if it has; `v`: of the centre against
-// the wall.
+// Returns the part of the velocity that belongs to the last step's contact from which the only contact of a sphere has moved, if it has
+// moved. `v`: velocity of the centre relative to the wall.
 template <class Springs>
 LSDCD_FN TakenAway taken_by_last_contact(const Transfer &in, const Springs &springs, const Vec3 &v,
                                          Real overlap)
@@ -249,19 +248,19 @@ LSDCD_FN TakenAway taken_by_last_contact(const Transfer &in, const Springs &spri
   return taken;
 }
 
-// Puts the energy and the speed of an impact into the record of a contact that begins. A sphere that was put there has come farther
-// than in this step.
+// Writes the energy and the speed of an impact to the record of a contact that begins. A sphere that was put into contact overlaps by more
+// than it can have moved in this step, and has no impact.
 LSDCD_FN void add_impact(const TakenAway &taken, const Strike &strike, Real mass, Real dt,
                          const EnergyRecordList &records, EnergyRecord &record)
 {
-  constexpr Real kSteps = 1.5;    // speeds change on the way, and are those of half of it
+  constexpr Real kSteps = 1.5;    // speeds change on the way, and are those of half of the step
   const Real speed = taken.speed_left(strike);
   if (!(speed > records.impact_speed && taken.overlap_left(strike) <= kSteps * dt * speed)) return;
   record.impact = 0.5 * mass * speed * speed / records.velocity_unit;
   record.speed = speed;
 }
 
-// Returns the velocity of a sphere's centre less that of the wall at a point of this feature. Sets the shares of its nodes, where
+// Returns the velocity of a sphere's centre less that of the wall at a point of this feature. Sets the shares of the feature's nodes, if
 // these move.
 template <class Law, class Springs>
 LSDCD_FN Vec3 velocity_against(const MeshFeaturesView &wall, const ForceSettings &settings,
@@ -281,7 +280,7 @@ LSDCD_FN Vec3 velocity_against(const MeshFeaturesView &wall, const ForceSettings
     }
   return v;
 }
-// Returns the mass that a contact moves: at a rigid body the reduced one.
+// Returns the mass that a contact moves: at a rigid body it is the reduced mass.
 template <class Law>
 LSDCD_FN Real mass_at(const ForceSettings &settings, Real mass, const Vec3 &closest, const Vec3 &n)
 {
@@ -290,15 +289,15 @@ LSDCD_FN Real mass_at(const ForceSettings &settings, Real mass, const Vec3 &clos
   return mass;
 }
 
-// What is apart for a sphere and for another grain (shape_step.h) in add_contacts(). Of a sphere the arm of friction is along the
-// normal, and pressing turns nothing.
+// The following overloads are those parts of add_contacts() that differ between spheres and other grains (shape_step.h). For a sphere the
+// arm of friction is along the normal, and the normal force causes no torque.
 template <class Law, class Springs>
 LSDCD_FN Transfer transfer_to(const GridView &grid, const Law &, const ContactsView &set, int i,
                               const SphereStateWith<Springs> &s)
 {
   return transfer_of(grid.wall, set, i, s.springs, s.n_springs);
 }
-// The radius over which overlaps are reported, and that which a law reads of contact i.
+// Return the radius by which overlaps are reported, and the radius that a law reads for contact i.
 template <class Springs>
 LSDCD_FN Real radius_of(const ContactsView &, const SphereStateWith<Springs> &s)
 {
@@ -309,7 +308,7 @@ LSDCD_FN Real radius_of(const Law &, const ContactsView &, int, const SphereStat
 {
   return s.radius;
 }
-// Sets the velocities at a contact, of those of the centre away from the wall and along it. Returns the arm of friction.
+// Sets the velocities at a contact from those of the centre, away from the wall and along it. Returns the arm of friction.
 template <class Law, class Springs>
 LSDCD_FN Real add_spin(const Law &law, const ContactsView &, int, const SphereStateWith<Springs> &s,
                        Real away, const Vec3 &along, Contact &c)
@@ -354,9 +353,8 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     const Real weight = weights ? weights[i] : 1;
     const Real overlap = set.overlap_of(i, s.radius), ratio = overlap / radius_of(set, s);
     if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
-    // A contact that bears nothing, as the far face of a thin plate, is none. Nor has
-    // it a spring yet: cut to the friction limit of its own slight overlap, that would
-    // be gone when it takes over the force.
+    // A contact that bears nothing, such as one on the far face of a thin plate, is not counted. It has no spring yet, either: a spring
+    // cut to the friction limit of its own slight overlap would be lost when the contact takes over the force.
     if (!(weight > 0)) continue;
 
     const Vec3 n = set.normal[i];
@@ -424,11 +422,11 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
         if (law.keeps_losses)
           sink.book->keep_losses(law, settings, s, in, before, sink.extra, out.n_contacts);
       }
-      // Not of grains that are no spheres, with which walls have no impacts.
+      // Grains that are no spheres are left out, because walls have no impacts with them.
       if constexpr (!Set::kHasArms)
         if (settings.update && sink.records.impact_speed > 0 &&
             !stays(s.springs, in, set.feature[i], mesh)) {
-          // Where there are several, impacts follow when all are known (impacts.h).
+          // If there are several contacts, impacts follow when all contacts are known (impacts.h).
           if (weights)
             *sink.begins = true;
           else

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the contacts of a grain that is no sphere do with energy in a step, as contact_energy.h has it for spheres, on a CPU. Its force acts
-// at the grain's point, deeper than the foot by the overlap, and the torque of a contact has a couple beside. KeptForces::rolling has the
-// whole torque, as nothing rolls; `arm` is the overlap, and `distance` the radius that the law reads.
+// What the contacts of a grain that is no sphere do with energy in a step, on a CPU; contact_energy.h has the same for spheres. The force
+// acts at the grain's point, which is deeper than the foot by the overlap, and the torque of a contact also has a couple.
+// KeptForces::rolling has the whole torque, because there is no rolling resistance; `arm` is the overlap, and `distance` the radius that
+// the law reads.
 #pragma once
 
 #include "contact/grain_contacts.h"
@@ -28,8 +29,8 @@ inline GrainMetric metric_of(const GrainShape &grain, const Pose &pose)
   return metric;
 }
 
-// Returns the angular velocity that a grain had with this angular momentum when it lay as it did a step ago: I^-1 (w x I w) is how a free
-// one slows down.
+// Returns the angular velocity that a grain with the same angular momentum had in its orientation of a step ago. Without a torque it
+// changes by -I^-1 (w x I w) per time.
 inline Vec3 omega_before(const Vec3 &omega, const GrainMetric &metric, Real dt)
 {
   const Vec3 w = metric.to_own(omega), scale = metric.scale;
@@ -39,8 +40,8 @@ inline Vec3 omega_before(const Vec3 &omega, const GrainMetric &metric, Real dt)
                                      scale.z * scale.z * c.z});
 }
 
-// Adds half of the work that these forces, and the whole torque `by.rolling`, do in a step; `slip`: the velocity of the grain's
-// point less that of the wall at the foot.
+// Adds half of the work that these forces, and the whole torque `by.rolling`, do in a step. `slip`: the velocity of the grain's point less
+// that of the wall at the foot.
 inline void add_half_of_grain(const RelativeMotion &m, const Vec3 &slip, const Vec3 &n,
                               const KeptForces &by, Real dt, EnergyRows &rows)
 {
@@ -52,13 +53,13 @@ inline void add_half_of_grain(const RelativeMotion &m, const Vec3 &slip, const V
   rows[EnergyRow::lever_arms] -= half * by.arm * dot(by.friction, cross(m.spin, n));
 }
 
-// Returns the velocity of the grain's point less that of the wall at the foot; `arm`: from the centre to that point.
+// Returns the velocity of the grain's point less that of the wall at the foot. `arm`: the vector from the centre to that point.
 inline Vec3 slip_at(const RelativeMotion &m, const Vec3 &arm, const Vec3 &from_foot)
 {
   return m.v + cross(m.spin, from_foot) + cross(m.omega + m.spin, arm);
 }
 
-// Returns what a contact loses as the radius that its law reads changes to `c.radius`, with the grain's side that it is on.
+// Returns what a contact loses as the radius that its law reads changes to `c.radius`, because the contact moves over the grain's surface.
 template <class Law>
 Real loss_by_radius(const Law &law, const Contact &c, Real weight, const KeptForces &old)
 {
@@ -70,7 +71,7 @@ Real loss_by_radius(const Law &law, const Contact &c, Real weight, const KeptFor
   return 0.5 * weight * (less(c.overlap) + less(old.arm));
 }
 
-// As EnergyBook::add(), of contact `at`.
+// Does the same as EnergyBook::add(), for contact `at`.
 template <class Law, class Springs>
 void add_grain(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wall,
                const ForceSettings &settings, const SphereStateWith<Springs> &s,
@@ -101,7 +102,7 @@ void add_grain(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wa
   book_springs(law, c, b.parts, b.weight, now, old, book.rows);
 }
 
-// As EnergyBook::close(), of grain i, which may be a sphere.
+// Does the same as EnergyBook::close(), for grain i, which may be a sphere.
 template <class Law, class Springs>
 void close_grain(const Law &law, const StepJob &job, const LawAtMesh<Law> &mesh, std::size_t i,
                  const SphereStateWith<Springs> &s, const MarksOf<Law> &marks,

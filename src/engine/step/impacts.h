@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The impacts of a sphere that has several contacts (strike.h): laws with kRecords alone have these lines, and a step runs them where
+// The impacts of a sphere that has several contacts (strike.h). Only laws with kRecords have these lines, and a step runs them only if
 // a contact begins.
 #pragma once
 
@@ -12,19 +12,19 @@
 
 namespace lsdcd {
 
-// A contact, seen in the frame that all meshes of the sphere share.
+// A contact in the frame that all meshes of the sphere share.
 struct StruckContact {
   Strike strike;
-  Strike before;    // where it was in the last step; only where it has moved since
+  Strike before;    // the contact in the last step; only if it has moved since
   Real mass;        // as in Contact
   FeatureCode feature;
-  std::uint32_t mesh;    // of the wall's
-  bool bears;            // else the corner rule hides it
+  std::uint32_t mesh;    // number in the wall
+  bool bears;            // false: the corner rule hides it
   bool stays;            // it is on its feature of the last step
-  bool has_moved;        // it was on another one; if it is neither, it is new
+  bool has_moved;        // it was on another feature; if neither, it is new
 };
 
-// Was the contact of old spring k left by all contacts of a sphere? `carries`: see is_left_by().
+// Returns whether no contact of a sphere continues old spring k. `carries`: see is_left_by().
 template <class Sphere, class Contacts>
 LSDCD_FN bool is_left_by_all(const Sphere &sphere, const Contacts &set, bool carries, int k)
 {
@@ -83,13 +83,13 @@ LSDCD_FN void for_each_struck(const StepJob &job, const Sphere &sphere, const Co
   }
 }
 
-// Puts the impacts of a sphere into the list of records. Of those that begin in one step the fastest is the first, so that they depend
-// neither on the numbers of features nor on rounding.
+// Writes the impacts of a sphere to the list of records. Of impacts that begin in the same step the fastest comes first, so that they
+// depend neither on the numbers of features nor on rounding.
 template <class Law, class Sphere, class Contacts>
 LSDCD_NOINLINE void record_impacts(const StepJob &job, const Sphere &sphere, const Contacts &set,
                                    const Real *weight)
 {
-  TakenAway taken;    // at first by what touches already, though the corner rule may hide it now
+  TakenAway taken;    // begins with what touches already, though the corner rule may hide it now
   for_each_struck<Law>(job, sphere, set, weight, [&](const StruckContact &c, int) {
     if (c.stays) taken.take(c.strike);
     if (c.has_moved) taken.take(c.before);

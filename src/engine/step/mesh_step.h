@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A step of one sphere: narrow phase, corner rule, contact law, result. One source for all backends.
+// A step of one sphere: narrow phase, corner rule, contact law and result. All backends share this source.
 #pragma once
 
 #include "engine/step/compiled_law.h"
@@ -13,7 +13,7 @@
 
 namespace lsdcd {
 
-// Centre of sphere i in the frame of the mesh.
+// Returns the centre of sphere i in the frame of the mesh.
 template <class Law>
 LSDCD_FN Vec3 centre_of(const StepJob &job, std::size_t i)
 {
@@ -22,7 +22,7 @@ LSDCD_FN Vec3 centre_of(const StepJob &job, std::size_t i)
   return x;
 }
 
-// Turned back to the frame of the box.
+// Turns a result back to the frame of the box.
 LSDCD_FN void to_box(const Pose &pose, SphereResult &out)
 {
   out.force = pose.turn_to_box(out.force);
@@ -31,7 +31,7 @@ LSDCD_FN void to_box(const Pose &pose, SphereResult &out)
     out.weighted_point = pose.turn_to_box(out.weighted_point) + out.weight * pose.shift;
 }
 
-// Sphere i at x, without the numbers that only a contact needs: most candidates touch nothing.
+// Returns sphere i at x, without the numbers that only a contact needs: most candidates touch nothing.
 template <class Law>
 LSDCD_FN SphereState state_at(const Law &law, const StepJob &job, std::size_t i, const Vec3 &x,
                               Real radius)
@@ -48,7 +48,7 @@ LSDCD_FN SphereState state_at(const Law &law, const StepJob &job, std::size_t i,
   return s;
 }
 
-// Adds what only a sphere with a contact needs: its velocities, mass and temperature.
+// Adds the numbers that only a sphere with a contact needs: its velocities, mass and temperature.
 template <class Law, class Springs>
 LSDCD_FN void add_motion(const Law &law, const StepJob &job, const Pose &pose, std::size_t i,
                          SphereStateWith<Springs> &s)
@@ -64,7 +64,7 @@ LSDCD_FN void add_motion(const Law &law, const StepJob &job, const Pose &pose, s
     if (law.has_heat()) s.temperature = job.temperature[i];
 }
 
-// Reserves the places of n contacts of candidate k, from `first` on; false: there is no memory left.
+// Reserves the places of n contacts of candidate k, from `first` on. Returns false if there is no memory left.
 template <class Law>
 LSDCD_FN bool reserve_places(const Law &law, const StepJob &job, std::size_t k, int n, int &first,
                              SphereSink &sink)
@@ -94,8 +94,7 @@ LSDCD_FN int count_acting(const Contacts &set, const Real *weight)
   return n;
 }
 
-// Stores the result of candidate k, sphere i at x, and adds force and torque to the sphere's, unless that is
-// done later.
+// Stores the result of candidate k, sphere i at x, and adds force and torque to those of the sphere, unless that is done later.
 LSDCD_FN void add_force(const StepJob &job, std::size_t k, std::size_t i, const Vec3 &x,
                         const SphereResult &out)
 {
@@ -105,7 +104,7 @@ LSDCD_FN void add_force(const StepJob &job, std::size_t k, std::size_t i, const 
   job.torque.add(i, out.torque);
 }
 
-// A mesh and the law that a sphere has with it.
+// A mesh, and the law that a sphere has with it.
 template <class Law>
 struct LawAtMesh {
   const Law &law;
@@ -136,17 +135,17 @@ struct OneMeshSphere {
       if (job.settings.pose.placed) return job.x[i];
     return x;
   }
-  // Where the contacts of candidate k end, of n.
+  // Returns where the contacts of candidate k end, of n.
   LSDCD_FN int contacts_end(std::size_t, int n) const { return n; }
 };
 
-// Does that of close_books() for a grain of a law with kShapes (grain_energy.h).
+// Does the work of close_books() for a grain of a law with kShapes (grain_energy.h).
 template <class Law, class Springs>
 void close_grain(const Law &law, const StepJob &job, const LawAtMesh<Law> &mesh, std::size_t i,
                  const SphereStateWith<Springs> &s, const MarksOf<Law> &marks,
                  EnergyBook<Law> &book);
 
-// Books at each mesh of a sphere what has become of its contacts of the last step, once those of this step are booked.
+// Completes the energy balance at each mesh of a sphere by its contacts of the last step, after those of this step were added.
 template <class Law, class Sphere>
 LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const MarksOf<Law> &marks)
 {
@@ -172,10 +171,10 @@ LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const MarksO
   }
 }
 
-// Applies the law to the contacts of a sphere with one mesh or several, mesh after mesh, each in the frame of its mesh:
-// force, torque, springs and contacts. The moment about the origin is stored, too, so that totals can be made when
-// spheres are elsewhere. The sphere is a OneMeshSphere, or a MultiMeshSphere with its contacts (AtMeshes), which is a
-// candidate of each of its meshes. `weight` null: there is one contact at most, with one mesh.
+// Applies the law to the contacts of a sphere with one mesh or several, mesh after mesh, each in the frame of its mesh: computes force,
+// torque, springs and contacts. The moment about the origin is stored, too, so that totals can be made after spheres have moved on. The
+// sphere is a OneMeshSphere, or a MultiMeshSphere with its contacts (AtMeshes), which is a candidate of each of its meshes. `weight` null:
+// there is at most one contact, with one mesh.
 template <class Law, class Sphere, class Contacts>
 LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts &set,
                         const Real *weight)
@@ -277,9 +276,8 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     }
 }
 
-// Finds the contacts of a sphere, item k of the step, by find(memory, contacts), and applies the law to them. Where a
-// stack has no room for all they are found once more in a scratch memory. Returns how many there are, or as many as a
-// stack has room for.
+// Finds the contacts of a sphere, item k of the step, by find(memory, contacts), and applies the law to them. If the stack has no space for
+// all contacts, they are found once more in a scratch memory. Returns their number, or at most the number that a stack has space for.
 template <class Law, class Sphere, class Memory, class Find>
 LSDCD_FN int apply_to_all(const StepJob &job, const Sphere &sphere, std::size_t k, Real cutoff,
                           Memory &memory, Find &find)
@@ -289,8 +287,8 @@ LSDCD_FN int apply_to_all(const StepJob &job, const Sphere &sphere, std::size_t 
   ContactsView set = some.set.view();
   const Real *weight = some.weight;
   Real exact_within = some.exact_within;
-  // A scratch memory is locked, used and unlocked in one turn: on a GPU threads that wait for it must not
-  // hold up the one that has it.
+  // A scratch memory is locked, used and unlocked in one pass of the loop: on a GPU threads that wait for it must not hold up the thread
+  // that has it.
   for (bool done = false; !done;) {
     OverflowScratch *scratch = nullptr;
     bool fits = true;
@@ -343,8 +341,8 @@ LSDCD_FN bool needs_list(const Law &law, const StepJob &job, std::size_t k)
   return !job.lists.holds(k, s.x, s.cutoff);
 }
 
-// Makes a new list of slot k, whose sphere is s: for no less than at the choice, as a sphere that
-// has shrunk may grow to that again. A function of its own, so that its list is not on the stack of the rest.
+// Makes a new list of slot k, whose sphere is s. The list is for no smaller radius than at the candidate search, because a sphere that has
+// shrunk may grow to that radius again. This is a function of its own, so that its list is not on the stack of the rest.
 template <unsigned kSize>
 LSDCD_NOINLINE void put_list(const StepJob &job, const Warp<kSize> &warp, bool mine,
                              const GridView &grid, QuerySphere s, std::size_t k)
@@ -361,7 +359,7 @@ LSDCD_NOINLINE void put_list(const StepJob &job, const Warp<kSize> &warp, bool m
   job.lists.put(k, made, grid.wall, !has_grown);
 }
 
-// Makes a new list of slot k where the nodes of the mesh move. Candidates have no list yet when they are chosen.
+// Makes a new list of slot k if the nodes of the mesh move. Candidates have no list yet after a candidate search.
 template <unsigned kSize>
 LSDCD_NOINLINE void put_node_list(const StepJob &job, const Warp<kSize> &warp, bool mine,
                                   const QuerySphere &s, std::size_t k)
@@ -374,8 +372,8 @@ LSDCD_NOINLINE void put_node_list(const StepJob &job, const Warp<kSize> &warp, b
   job.lists.put(k, made, job.grid.wall);
 }
 
-// Does candidate k, with any number of contacts. Its cell is searched where it has no list that holds. True: it has
-// more than one. A function of its own, so that it takes no registers from the fast path.
+// Does candidate k with any number of contacts. If it has no valid list, its cell is searched. Returns true if it has more than one
+// contact. This is a function of its own, so that it takes no registers from the fast path.
 template <class Law>
 LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t k,
                                  GeneralMemory &memory)
@@ -396,30 +394,30 @@ LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t
     narrow_phase<Law::kBeyondContact, Law::kNodes>(with.rule, job.grid, job.settings.search, s,
                                                    list, contacts);
     if (is_at_nodes<Law::kNodes>(job.grid))
-      list = nullptr;    // what overflows is found in the cell
+      list = nullptr;    // if it overflows, contacts are found in the cell
   };
   const OneMeshSphere<Law> sphere = {law, job, k, i, x, radius};
   return apply_to_all<Law>(job, sphere, k, s.cutoff, memory, find) > 1;
 }
 
-// The candidates of one mesh, for run_step(), where the paper has its function (2): each takes fast_path(), and general_path() where that returns
-// false or where there is none.
+// The candidates of one mesh, for run_step(); this is function (2) of the paper. Each candidate takes fast_path(), and then general_path()
+// if that returns false or does not exist.
 template <class Law>
 struct MeshStep {
   Law law;
   StepJob job;
 
   static constexpr bool kFastPath = true;
-  // Blocks at once on a GPU's processor: 128 or 168 registers are left to a thread. With fewer
-  // the kernels spill, which costs more than more blocks bring.
+  // Number of blocks at once on a GPU's processor: it leaves 128 or 168 registers to a thread. With fewer registers the kernels spill,
+  // which costs more than more blocks gain.
   static constexpr bool kLarge =
       Law::kStoresExtra || Law::kContactTorque || Law::kHeat || Law::kBeyondContact;
   static constexpr int kBlocksAtOnce = kLarge ? 3 : 4;
 
   bool has_fast_path() const { return job.lists.n; }
   LSDCD_FN void begin() const { clear_next(job); }
-  // Does candidate k where it has one contact or none, as nearly all have: with room for one nothing is indexed
-  // and all is in registers. False, and nothing done, where it has more or no list that holds.
+  // Does candidate k if it has one contact or none, as nearly all have. With memory for one contact nothing is indexed and all is in
+  // registers. Returns false, with nothing done, if the candidate has more contacts or no valid list.
   LSDCD_FN bool fast_path(std::size_t k) const
   {
     const std::size_t i = sphere_of(job, k);
@@ -444,7 +442,7 @@ struct MeshStep {
       if (is_at_nodes<Law::kNodes>(job.grid)) return put_node_list(job, warp, mine, s, k);
     put_list(job, warp, mine, job.grid, s, k);
   }
-  // Prefetches for a CPU what make_list() will read, part by part.
+  // Prefetches, for a CPU, what make_list() will read, part by part.
   using Ahead = SearchAhead;
   Ahead list_ahead(std::size_t k) const
   {

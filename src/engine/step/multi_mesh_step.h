@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A step over multi-mesh spheres, which are candidates of more than one mesh: their contacts with all of these
-// share their overlap as those with one mesh do.
+// A step over multi-mesh spheres, which are candidates of more than one mesh: their contacts with all of these meshes share their
+// overlap in the same way as contacts with one mesh.
 #pragma once
 
 #include "engine/step/mesh_step.h"
 
 namespace lsdcd {
 
-// The springs of a sphere in the frame of one mesh: those of other meshes are turned to it.
+// The springs of a sphere in the frame of one mesh: springs of other meshes are turned to that frame.
 struct SpringsInFrame {
   const Spring *springs;
   const MeshWork *meshes;
@@ -35,13 +35,13 @@ LSDCD_FN Spring SpringsInFrame::operator[](int k) const
   return s;
 }
 
-// A multi-mesh sphere in the frame of the box; it has one slot for each mesh.
+// A multi-mesh sphere in the frame of the box. It has one slot (candidate-mesh pair) for each mesh.
 struct MultiMeshSphere {
   int begin, end;
   std::size_t i;
-  int kind;    // of the wall's laws
+  int kind;    // index into the wall's laws
   Vec3 x;
-  Real radius, cutoff;    // cutoff: the largest
+  Real radius, cutoff;    // cutoff: the largest of its meshes
 };
 
 template <class Law>
@@ -50,7 +50,7 @@ LSDCD_FN const Law &law_with(const StepJob &job, const MultiMeshSphere &s, int m
   return job.multi_mesh.laws.of(mesh, s.kind).law.in_kernel<Law>();
 }
 
-// From how far it feels a mesh.
+// Returns the distance from which the sphere feels a mesh.
 template <bool kBeyondContact>
 LSDCD_FN Real cutoff_with(const StepJob &job, const MultiMeshSphere &s, int mesh)
 {
@@ -77,7 +77,7 @@ LSDCD_FN MultiMeshSphere multi_mesh_sphere(const StepJob &job, std::size_t g)
   return s;
 }
 
-// Returns the query for it in the frame of the mesh of slot k.
+// Returns the query for the sphere in the frame of the mesh of slot k.
 template <bool kBeyondContact>
 LSDCD_FN QuerySphereWith<SpringsInFrame> in_frame_of(const StepJob &job, const MultiMeshSphere &s,
                                                      int k)
@@ -95,16 +95,17 @@ LSDCD_FN QuerySphereWith<SpringsInFrame> in_frame_of(const StepJob &job, const M
   return seen;
 }
 
-// A contact with a mesh.
+// A contact of a sphere with a mesh.
 struct MeshContact {
   FeatureCode feature;
   Real distance;    // length; below 0: an overlap
-  Vec3 closest;    // its closest point, or the way from there to a point, which is the same for all
+  Vec3 closest;     // its closest point, or the vector from it to a point common to all
 };
 
-// Does a contact of the n-th mesh stay beside those of the meshes before it, which end at `end`? Two contacts with the same closest
-// point are one. It is the nearer one; if both are equally near, a face before an edge before a vertex; if these are equal, that
-// of the earlier mesh. Calls remove(b) for those that go, which keeps the others in order. at(b) returns a MeshContact.
+// Returns whether a contact of the n-th mesh is kept beside those of the meshes before it, which end at `end`. Two contacts with
+// the same closest point count as one. The nearer one is kept; if both are equally near, a face before an edge before a vertex; if
+// these are equal, too, the contact of the earlier mesh. Calls remove(b) for contacts that are dropped, and the others keep their
+// order. at(b) returns a MeshContact.
 template <class At, class Remove>
 LSDCD_FN bool outlasts_earlier(const MeshContact &later, Real tolerance, int *end, int n,
                                const At &at, const Remove &remove)
@@ -123,7 +124,7 @@ LSDCD_FN bool outlasts_earlier(const MeshContact &later, Real tolerance, int *en
   return true;
 }
 
-// Takes contact c out; the others keep their order.
+// Removes contact c; the others keep their order.
 template <int kCapacity>
 LSDCD_FN void remove_contact(ContactSet<kCapacity> &all, int c)
 {
@@ -135,8 +136,8 @@ LSDCD_FN void remove_contact(ContactSet<kCapacity> &all, int c)
   }
 }
 
-// Adds the contacts of the n-th mesh, whose normals `turn` takes to the frame of the others, to those of the meshes before it,
-// which end at `end`.
+// Adds the contacts of the n-th mesh to those of the meshes before it, which end at `end`. `turn` turns their normals to the frame
+// of the others.
 template <int kCapacity, class Turn>
 LSDCD_FN void add_mesh(const Turn &turn, const ContactSet<kCapacity> &of_mesh, Real tolerance,
                        ContactSet<kCapacity> &all, int *end, int n)
@@ -154,10 +155,10 @@ LSDCD_FN void add_mesh(const Turn &turn, const ContactSet<kCapacity> &of_mesh, R
   }
 }
 
-// The contacts of the sphere with their weights, mesh after mesh, in the frame of each: those of slot begin + k end at
-// end[k]. A function of its own, so that it is compiled once however many laws there are. Where one mesh alone is touched
-// all is computed in its frame, as in a MeshStep: whether the sphere is a candidate of others, too, follows from when it was
-// chosen, and changes no bit.
+// Finds the contacts of the sphere with their weights, mesh after mesh, in the frame of each: those of slot begin + k end at
+// end[k]. This is a function of its own, so that it is compiled once however many laws there are. If only one mesh is touched, all
+// is computed in its frame, as in a MeshStep: whether the sphere is also a candidate of others depends on the time of the candidate
+// search, and must change no bit.
 template <bool kBeyondContact, class Memory, int kCapacity>
 LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &s,
                                            Memory &memory, WeightedContacts<kCapacity> &all,
@@ -165,8 +166,8 @@ LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSp
 {
   WeightedContacts<kCapacity> &of_mesh = memory.of_mesh;
   Real tolerance = 0, cutoff = 0;    // the largest of the meshes that are touched
-  int touched = -1;                  // the slot of the first of these
-  bool in_box = false;               // more than one is: normals are in the frame of the box
+  int touched = -1;                  // slot of the first of these meshes
+  bool in_box = false;               // more than one is touched: normals are in the box's frame
   const auto pose_of = [&](int k) -> const Pose & {
     return job.multi_mesh.meshes[job.multi_mesh.mesh[k]].settings.pose;
   };
@@ -239,7 +240,7 @@ struct AtMeshes {
   LSDCD_FN int contacts_end(int k, int) const { return ends[k - s.begin]; }
 };
 
-// Does multi-mesh sphere g, with any number of contacts.
+// Does multi-mesh sphere g with any number of contacts.
 template <class Law>
 LSDCD_FN void multi_mesh_contacts(const StepJob &job, std::size_t g, MultiMeshMemory &memory)
 {
@@ -294,7 +295,7 @@ struct MultiMeshStep {
     multi_mesh_contacts<Law>(job, g, memory);
     return true;
   }
-  // Its centre in the frame of the mesh of slot k.
+  // Returns the centre in the frame of the mesh of slot k.
   LSDCD_FN Vec3 centre_in_frame(const MultiMeshSphere &s, int k) const
   {
     return in_frame_of<Law::kBeyondContact>(job, s, k).x;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The narrow phase: the contacts of a sphere from its list or its cell, filtered, each with its weight by the corner
-// rule. No law changes it.
+// The narrow phase: finds the contacts of a sphere from its list or its cell, filters them, and gives each its
+// weight by the corner rule. It does not depend on the law.
 #pragma once
 
 #include "contact/corner.h"
@@ -25,8 +25,8 @@ struct WeightedContacts {
   Real exact_within;         // the set is certified for spheres up to this radius
 };
 
-// Removes contacts on the wrong side. With adhesion beyond contact (cutoff > radius) a contact that does not
-// overlap stays as long as it has not let go.
+// Removes contacts on the wrong side. With adhesion beyond contact (cutoff > radius) a contact that does not overlap
+// stays until it has let go.
 template <bool kBeyondContact, class Springs, int kCapacity>
 LSDCD_FN void filter_contacts(const GridView &grid, const SearchSettings &settings,
                               const QuerySphereWith<Springs> &s, ContactSet<kCapacity> &set)
@@ -42,14 +42,14 @@ LSDCD_FN void filter_contacts(const GridView &grid, const SearchSettings &settin
   }
 }
 
-// Do the nodes of this grid's mesh move? Lists of spheres name primitives then. kNodes: it may be so.
+// Returns whether the nodes of this grid's mesh move. Lists of spheres then name primitives. kNodes: it may be so.
 template <bool kNodes>
 LSDCD_FN bool is_at_nodes(const GridView &grid)
 {
   return kNodes && grid.list_kind.is_every();
 }
 
-// Finds the contacts within the cutoff in the list of a sphere, of features or of primitives.
+// Finds the contacts within the cutoff in the list of a sphere, which has features or primitives.
 template <bool kNodes, int kCapacity>
 LSDCD_FN void find_listed(const GridView &grid, const ListedFeatures &list, const Vec3 &q,
                           Real cutoff, ContactSet<kCapacity> &set)
@@ -59,9 +59,9 @@ LSDCD_FN void find_listed(const GridView &grid, const ListedFeatures &list, cons
   find_in_list(grid, list, q, cutoff, set);
 }
 
-// Finds the contacts within the cutoff, into a set that is empty: from the sphere's list, or from its cell where
-// `list` is null. Sorted by the features' numbers, so that the corner rule and sums give the same bits from
-// both. Where the set overflows nothing else is valid.
+// Finds the contacts within the cutoff and puts them into an empty set: from the sphere's list, or from its cell if
+// `list` is null. They are sorted by the numbers of their features, so that the corner rule and sums give the same
+// bits in both cases. If the set overflows, nothing else is valid.
 template <bool kBeyondContact, bool kNodes, class Springs, int kCapacity>
 LSDCD_FN void find_filtered(const GridView &grid, const SearchSettings &settings,
                             const QuerySphereWith<Springs> &s, const ListedFeatures *list,
@@ -76,20 +76,21 @@ LSDCD_FN void find_filtered(const GridView &grid, const SearchSettings &settings
   out.set.sort();
 }
 
-// Can a search of this grid miss contacts? Lists of every primitive, as those of nodes that move, leave out nothing.
+// Returns whether a search of this grid can miss contacts. Lists of every primitive, such as those of nodes that
+// move, leave nothing out.
 LSDCD_FN bool may_miss_any(const GridView &grid)
 {
   return grid.list_kind.has_primitives() && !grid.list_kind.is_every();
 }
 
-// Overlap of the deepest contact that may be missing; 0: certified.
+// Returns the overlap of the deepest contact that may be missing; 0: certified.
 LSDCD_FN Real may_miss(Real cutoff, Real exact_within)
 {
   return exact_within < cutoff ? cutoff - exact_within : 0;
 }
 
-// Gives every contact its weight: overlaps are shared as those of a sphere of radius `cutoff`, so
-// that they are greater than 0 as long as a contact holds, and 0 where it lets go.
+// Gives every contact its weight. Overlaps are shared as those of a sphere of radius `cutoff`, so that they are
+// greater than 0 as long as a contact holds, and 0 when it lets go.
 template <int kCapacity>
 LSDCD_FN void share_overlap(const SearchSettings &settings, Real cutoff, Real tolerance,
                             CornerRule<kCapacity> &rule, WeightedContacts<kCapacity> &out)
@@ -100,8 +101,8 @@ LSDCD_FN void share_overlap(const SearchSettings &settings, Real cutoff, Real to
     for (int i = 0; i < out.set.n; i++) out.weight[i] = 1;
 }
 
-// The contacts of a sphere with their weights. `rule`: memory of the corner rule, which a stack may have no room
-// for. A function of its own, so that it is compiled once however many laws there are.
+// Finds the contacts of a sphere with their weights. `rule`: memory of the corner rule, which may be too large for a
+// stack. This is a function of its own, so that it is compiled once however many laws there are.
 template <bool kBeyondContact, bool kNodes, int kCapacity>
 LSDCD_NOINLINE void narrow_phase(CornerRule<kCapacity> &rule, const GridView &grid,
                                  const SearchSettings &settings, const QuerySphere &s,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Contact laws for grains that may be no spheres, and what a step knows of such grains, on a CPU.
+// Contact laws for grains that may be no spheres, and the data of such grains in a step, on a CPU.
 #pragma once
 
 #include "backend/atomic.h"
@@ -22,13 +22,14 @@ namespace lsdcd {
 
 struct CpuBackend;
 
-// What is within `reach` (length) of where a candidate's centre was when the list was made, in the frame of the mesh.
+// All features within `reach` (length) of the place of a candidate's centre at the time when the list was made, in the frame of the
+// mesh.
 struct NearList {
   Vec3 from = {0, 0, 0};
   Real reach = -1;    // below 0: there is no list
   NearFeatures features;
 
-  // Does it have all within `radius` of x?
+  // Returns whether the list has all features within `radius` of x.
   bool holds(const Vec3 &x, Real radius) const { return norm(x - from) + radius <= reach; }
 };
 
@@ -36,22 +37,21 @@ struct NearList {
 struct ShapeWork {
   const GrainShape *rows = nullptr;     // of all grains of the step; null: all are spheres
   std::vector<Superellipsoid> shape;    // of each candidate, by its index; half-axes 0: a sphere
-  std::vector<Quaternion> turn;         // of each of them that is no sphere, as in rows
+  std::vector<Quaternion> turn;         // orientation of each of them that is no sphere, as in rows
   std::vector<const TriangleTree *> trees;    // of each mesh
   std::vector<NearList> near;                 // of each slot
   // kNoSphere less the index of the first grain whose nearest points were not found to rounding, or 0: an error.
   std::uint64_t unsure = 0;
-  // The largest overlap over how deep a contact may be (ShapeAtMeshes::check_depths) as DeepestOverlap::ratio(), and the index of the
-  // grain + 1.
+  // The largest overlap, divided by the depth that a contact may have (ShapeAtMeshes::check_depths), as DeepestOverlap::ratio(), and
+  // the index of the grain + 1.
   std::uint64_t sharpest = 0;
-  std::deque<LawBytes> laws;    // of spheres, for ShapeLaw: their addresses stay
+  std::deque<LawBytes> laws;    // laws of spheres, for ShapeLaw: their addresses stay
 
   bool is_sphere(std::size_t i) const { return !rows || rows[i].is_sphere(); }
 };
 
-// A law of spheres, called through a pointer, with the arm of a grain beside the spring of each contact. So steps of shapes are
-// compiled twice, with springs and without, and not for each law.
-// kBooks: for books of energy.
+// A law of spheres that is called through a pointer, and that keeps the arm of a grain in addition to the spring of each contact. So
+// steps of shapes are compiled only twice, with springs and without, and not for each law. kBooks: the law has an energy balance.
 template <bool kHistory_, bool kBooks = false>
 struct ShapeLaw {
   using Force = std::conditional_t<kBooks, FullForce, ContactForce>;
@@ -62,12 +62,12 @@ struct ShapeLaw {
 
   const LawBytes *base;    // one of work->laws
   ContactForce (*evaluate_base)(const LawBytes &base, const Contact &, ContactMemory<0> &);
-  // friction_spring() with the spring before and after.
+  // Calls friction_spring() with the spring before and after.
   SpringPart (*spring_of_base)(const LawBytes &base, const Contact &, const Vec3 &begun,
                                const Vec3 &shear);
-  bool reads_radius;    // does it read Contact::radius?
+  bool reads_radius;    // does the law read Contact::radius?
   ShapeWork *work;
-  // Of a law with kBooks: parts() with the spring before and after, and normal_energy().
+  // Call parts() with the spring before and after, and normal_energy(), for a law with kBooks.
   ForceParts (*parts_of_base)(const LawBytes &base, const Contact &, const Vec3 &begun,
                               const Vec3 &shear, const FullForce &);
   Real (*energy_of_base)(const LawBytes &base, const Contact &, Real overlap);
@@ -102,7 +102,7 @@ template <bool kHistory, bool kBooks>
 struct IsShapeLaw<ShapeLaw<kHistory, kBooks>> : std::true_type {
 };
 
-// Returns the law of the settings for grains of any shape: InputError where they cannot have it.
+// Returns the law of the settings for grains of any shape. Throws InputError if they cannot have it.
 CompiledLaw<CpuBackend> shape_law_for(const EngineSettings &, ShapeWork &);
 
 }    // namespace lsdcd

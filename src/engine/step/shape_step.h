@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A step of grains that may be no spheres, on a CPU: spheres as in other steps, others by the signed distance from them.
+// A step of grains that may be no spheres, on a CPU. Spheres are computed as in other steps, other grains by the signed distance from
+// them.
 #pragma once
 
 #include "base/input_error.h"
@@ -19,8 +20,8 @@
 
 namespace lsdcd {
 
-// Returns the radius by which a law takes the size of a contact from its overlap: that of the mean curvature. A flat side has
-// no contact radius above that of the sphere around the grain.
+// Returns the radius from which a law computes the size of a contact with this overlap: that of the mean curvature. For a flat side it
+// is no larger than the radius of the sphere around the grain.
 inline Real contact_curvature_radius(const Superellipsoid &shape, const Vec3 &own_point,
                                      Real overlap)
 {
@@ -29,7 +30,7 @@ inline Real contact_curvature_radius(const Superellipsoid &shape, const Vec3 &ow
   return mean * most > 1 ? 1 / mean : most;
 }
 
-// Returns the radius that a law reads of a contact.
+// Returns the radius that a law reads for a contact.
 template <class Law>
 Real radius_for(const Law &law, const Superellipsoid &shape, const Vec3 &own_point, Real overlap,
                 Real radius)
@@ -37,7 +38,7 @@ Real radius_for(const Law &law, const Superellipsoid &shape, const Vec3 &own_poi
   return law.reads_radius ? contact_curvature_radius(shape, own_point, overlap) : radius;
 }
 
-// What add_contacts() asks of a grain that is no sphere: velocity and force are at its point.
+// The answers to add_contacts() for a grain that is no sphere: velocity and force are at the grain's point.
 template <class Law, class Springs>
 Transfer transfer_to(const GridView &grid, const Law &law, const GrainContactsView &set, int i,
                      const SphereStateWith<Springs> &s)
@@ -88,7 +89,7 @@ void book_contact(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView 
   add_grain(book, law, wall, settings, s, booked, set.at[i], in, marks, to);
 }
 
-// What a thread has for grains that are no spheres.
+// The memory of a thread for grains that are no spheres.
 struct ShapeMemory {
   struct OfMesh {
     explicit OfMesh(const TriangleTree &tree) : search(tree), passes(tree) {}
@@ -174,7 +175,7 @@ class ShapeAtMeshes {
     }
   }
 
-  // Adds a contact of mesh m, if no earlier mesh has the same.
+  // Adds a contact of mesh m, unless an earlier mesh has the same one.
   void add(const GrainContact &c, int m)
   {
     std::vector<GrainContact> &all = memory_.contacts;
@@ -213,7 +214,7 @@ class ShapeAtMeshes {
     add_couples();
   }
 
-  // Has contacts with mesh m, from `first` on, fade where they end at a fold.
+  // Makes contacts with mesh m, from `first` on, fade if they end at a fold.
   void add_passes(int m, int first)
   {
     if (ends_[m] - first < 2) return;
@@ -229,7 +230,7 @@ class ShapeAtMeshes {
       Real above = overlap;
       for (const PassEnd &other : memory_.ends)
         above = std::fmin(above, overlap_without_fade(overlap, other.overlap));
-      if (!(above < overlap)) continue;    // none is deeper
+      if (!(above < overlap)) continue;    // no pass is deeper
       if (!has_begun) passes.begin(memory_.placed[m], memory_.ends);
       has_begun = true;
       const std::vector<Real> &pass = passes.find(i, std::fmax(above, Real(0)));
@@ -239,7 +240,7 @@ class ShapeAtMeshes {
     }
   }
 
-  // Adds the couple of each two contacts that bear, half of it to each, by the mean of their stiffnesses.
+  // Adds the couple of any two contacts that bear, half of it to each, with the mean of their stiffnesses.
   void add_couples()
   {
     const int n = static_cast<int>(memory_.contacts.size());
@@ -253,7 +254,7 @@ class ShapeAtMeshes {
           memory_.contacts[c].couple += memory_.contacts[c].metric->turned(both / 2 * couple);
       }
   }
-  // Returns the elastic force of a contact over its overlap.
+  // Returns the elastic force of a contact divided by its overlap.
   Real stiffness(int contact) const
   {
     const GrainContact &at = memory_.contacts[contact];
@@ -267,7 +268,7 @@ class ShapeAtMeshes {
     return law.evaluate(c, memory).normal / at.overlap;
   }
 
-  // Notes how deep contacts are that are not less deep than the least radius of curvature, over how deep they may be.
+  // Records the depth of contacts that are at least as deep as the least radius of curvature, divided by the depth that is allowed.
   void check_depths()
   {
     for (std::size_t i = 0; i < memory_.contacts.size(); i++)
@@ -275,8 +276,8 @@ class ShapeAtMeshes {
         raise_to(&work_.sharpest, DeepestOverlap::ratio(memory_.contacts[i].overlap / limit_of(i)) |
                                       (sphere_.i + 1));
   }
-  // Returns how deep a contact may be for a force that does not jump where it ends: the radius of curvature of the grain's shadow across
-  // the fold or edge; length.
+  // Returns how deep a contact may be so that the force does not jump where it ends: the radius of curvature of the grain's shadow
+  // across the fold or edge; length.
   Real limit_of(std::size_t i) const
   {
     const GrainContact &c = memory_.contacts[i];
@@ -302,7 +303,7 @@ class ShapeAtMeshes {
   }
   static constexpr Real kParallel = 1e-9;    // an angle
 
-  // Of the radius around the grain: how far it goes until its list is made again.
+  // How far the grain moves until its list is made again, as a share of the radius of the sphere around it.
   static constexpr Real kWay = 0.2;
 
   const StepJob &job_;
@@ -311,12 +312,12 @@ class ShapeAtMeshes {
   const GrainShape &row_;
   const Superellipsoid &shape_;
   const Vec3 centre_;    // in the box
-  int *ends_;            // of each mesh's contacts
+  int *ends_;            // ends of the contacts of each mesh
   ShapeMemory &memory_;
   Real tolerance_ = 0;
 };
 
-// StepOfSpheres is a MeshStep or a MultiMeshStep, which does the grains that are spheres.
+// A step of grains. StepOfSpheres is a MeshStep or a MultiMeshStep, which does the grains that are spheres.
 template <class Law, class StepOfSpheres>
 struct ShapeStep {
   const Law &law;
@@ -364,7 +365,7 @@ struct ShapeStep {
   }
 
  private:
-  // Notes that the grain of a slot is larger than what the grid reaches, or than it was when candidates were chosen.
+  // Notes that the grain of a slot is larger than the reach of the grid, or than it was at the candidate search.
   void check_radius(std::size_t slot, std::size_t i, Real radius) const
   {
     check_cutoff(job(), i, radius);

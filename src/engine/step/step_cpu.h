@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A step over many spheres on a CPU.
+// Runs a step over many spheres on a CPU.
 #pragma once
 
 #include "backend/threads.h"
@@ -11,9 +11,9 @@
 #include <cstddef>
 #include <cstdint>
 
-// Compiles a function with all that it calls, so that a sphere's numbers stay in registers: a step takes 24.5 ns a sphere, and 77
-// where the compiler chooses what it puts in place. It costs half of the time that a law takes to compile; with sanitizers it
-// would take minutes.
+// Compiles a function with all functions that it calls inlined, so that the numbers of a sphere stay in registers. A step then
+// takes 24.5 ns a sphere, and 77 if the compiler decides what to inline. This is half of the time that a law takes to compile;
+// with sanitizers it would take minutes.
 #if defined(__SANITIZE_ADDRESS__)
 #define LSDCD_FLATTEN
 #else
@@ -22,7 +22,7 @@
 
 namespace lsdcd {
 
-// Items of a step that a thread takes at once, at most.
+// The largest number of items of a step that a thread takes at once.
 constexpr std::int64_t kMostItems = 512;
 struct StepItems {
   int n = 0;
@@ -31,8 +31,8 @@ struct StepItems {
   void add(std::int64_t i) { at[n++] = i; }
 };
 
-// The fast path of items [begin, end); `left` gets those that it is not for. It is compiled into the loop
-// whole, with its contact in registers.
+// Takes the fast path for the items [begin, end). `left` gets the items that this path is not for. The path is inlined into the
+// loop, with its contact in registers.
 template <class Work>
 [[gnu::noinline, LSDCD_FLATTEN]] void run_fast_path(const Work &work, std::int64_t begin,
                                                     std::int64_t end, StepItems &left)
@@ -41,8 +41,8 @@ template <class Work>
     if (!work.fast_path(static_cast<std::size_t>(i))) left.add(i);
 }
 
-// Prefetches what the lists of n items are made from, at most kPrefetched: else each would wait for memory
-// several times.
+// Prefetches the data from which the lists of n items are made, at most kPrefetched items. Otherwise each item would wait for
+// memory several times.
 constexpr int kPrefetched = 32;
 template <class Work>
 void prefetch_lists([[maybe_unused]] const Work &work, [[maybe_unused]] const std::int64_t *items,
@@ -57,8 +57,8 @@ void prefetch_lists([[maybe_unused]] const Work &work, [[maybe_unused]] const st
   }
 }
 
-// Takes the items that the fast path has left, which are few and take long: those that need lists get them and
-// go through the fast path once more; the others take the general path.
+// Takes the items that the fast path has left, which are few and take long. Those that need lists get them and take the fast path
+// once more; the others take the general path.
 template <class Work>
 [[gnu::noinline]] void run_left(const Work &work, const StepItems &left)
 {
@@ -80,13 +80,13 @@ template <class Work>
     work.general_path(static_cast<std::size_t>(general.at[k]), memory);
 }
 
-// A step over items [0, n) of `work`, a MeshStep or a MultiMeshStep.
+// Runs a step over the items [0, n) of `work`, a MeshStep or a MultiMeshStep.
 template <class B, class Work>
 void run_step(B &, std::size_t n, const Work &work)
 {
   work.begin();
   const std::int64_t m = static_cast<std::int64_t>(n);
-  // Long enough that several items of a run need lists, and enough runs for all threads.
+  // A run is long enough that several of its items need lists, and short enough that there are runs for all threads.
   const std::int64_t run = std::min(kMostItems, std::max<std::int64_t>(64, m / (8 * threads())));
 #pragma omp parallel for schedule(dynamic) num_threads(threads()) if (m > 256)
   for (std::int64_t begin = 0; begin < m; begin += run) {

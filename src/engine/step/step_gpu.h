@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A step over many spheres on a GPU: a thread for each, and at the same time warps for those with several
-// contacts. Such a sphere takes twenty times as long as the others, so that it must not begin after them.
+// Runs a step over many spheres on a GPU: a thread for each sphere, and at the same time warps for spheres with
+// several contacts. Such a sphere takes twenty times as long as the others, so that it must not start after
+// them.
 #pragma once
 
 #include "backend/block.h"
@@ -13,13 +14,13 @@
 namespace lsdcd {
 
 constexpr unsigned kStepWarps = kStepBlock / kWarpSize;
-// How many blocks serve the list. While the fast path runs: few, as they take room from blocks that would hide
-// its memory latency.
+// How many blocks do the items of a list. While the fast path runs there are few, because they would displace
+// other blocks that hide its memory latency.
 constexpr int kFewBlocks = kFewGeneral / kStepBlock, kMaxBlocks = kMostGeneral / kStepBlock;
 
-// The items of the general path: those of `list`, or with a null list all of [0, n). The first `blocks` of the
-// kernel take them; while there are few items, only `few` of these do. `leaves_lists`: an item that needs a list
-// is left to the next kernel, where more threads share the work.
+// The items of the general path: those of `list`, or all of [0, n) if the list is null. The first `blocks` of
+// the kernel take them; while there are few items, only `few` of these blocks do. `leaves_lists`: an item that
+// needs a list is left to the next kernel, in which more threads share the work.
 struct GeneralPart {
   const int *list, *n_listed;
   int n, few;
@@ -27,7 +28,7 @@ struct GeneralPart {
   bool leaves_lists;
 };
 
-// Puts k into a list of which `n` is the length, for each thread that has one to put.
+// Appends k to a list, whose length is `n`, for each thread that has an item.
 LSDCD_GPU_FN void put_listed(bool has_one, int k, int *list, int *n)
 {
   const GpuWarp warp;
@@ -48,7 +49,7 @@ LSDCD_GPU_FN void run_general_path(const GeneralPart &part, const Work &work)
   const int number = Block::number() * kStepWarps + Block::warp(), rank = warp.rank();
   if (number >= warps) return;
   auto &memory = static_cast<typename Work::Memory *>(lists.memory)[kWarpSize * number + rank];
-  // Listed items are few, and each takes its own branches: at first one item a warp.
+  // Listed items are few, and each takes its own branches: at first a warp takes one item.
   const int first = part.list ? rank * warps + number : kWarpSize * number + rank;
   for (int s = first; warp.any(s < end); s += step) {
     bool has_one = s < end;
@@ -58,7 +59,7 @@ LSDCD_GPU_FN void run_general_path(const GeneralPart &part, const Work &work)
       put_listed(is_due, k, lists.found, lists.n_found);
       has_one = has_one && !is_due;
     } else {
-      // Lists are long to make: the whole warp helps.
+      // Lists take long to make: the whole warp helps.
       if (warp.any(is_due)) work.make_list(warp, is_due, k);
       warp.wait();
     }
@@ -70,7 +71,7 @@ LSDCD_GPU_FN void run_general_path(const GeneralPart &part, const Work &work)
   }
 }
 
-// general_path() for a part, and fast_path() for all of [0, n) that are not listed.
+// Runs general_path() for a part of the items, and fast_path() for all of [0, n) that are not listed.
 template <class Work>
 struct StepPart {
   static constexpr unsigned kThreads = kStepBlock, kBlocksAtOnce = Work::kBlocksAtOnce;
@@ -100,9 +101,9 @@ struct StepPart {
   }
 };
 
-// A step over items [0, n) of `work`, a MeshStep or a MultiMeshStep: fast_path(i), and where that returns false
-// or there is none general_path(i), after a warp has made the lists of those for which needs_list(i). Lists of
-// work.work_lists() have room for n; those to be written are empty.
+// Runs a step over the items [0, n) of `work`, a MeshStep or a MultiMeshStep: fast_path(i), and general_path(i)
+// if that returns false or does not exist. Before that a warp makes the lists of the items for which
+// needs_list(i). Lists of work.work_lists() have space for n items; those to be written are empty.
 template <class B, class Work>
 void run_step(B &b, std::size_t n_items, const Work &work)
 {
@@ -118,7 +119,7 @@ void run_step(B &b, std::size_t n_items, const Work &work)
   if (work.has_fast_path()) {
     part = {lists.last, lists.n_last, 0, kFewBlocks, lists.last ? general_blocks : 0, true};
     b.for_each_block({part.blocks + blocks, kStepBlock}, StepPart<Work>{part, n, to_clear, work});
-    to_clear = lists.n_last;    // the next step's `next`
+    to_clear = lists.n_last;    // `next` of the next step
     part = {lists.found, lists.n_found, 0, kMaxBlocks, general_blocks, false};
   }
   b.for_each_block({part.blocks, kStepBlock}, StepPart<Work>{part, 0, to_clear, work});

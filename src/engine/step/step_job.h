@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The arguments of a step's kernels, on any backend, and what kernels count and store beside their results.
+// The arguments of a step's kernels, on any backend, and what kernels count and store in addition to their results.
 #pragma once
 
 #include "backend/atomic.h"
@@ -15,28 +15,28 @@
 
 namespace lsdcd {
 
-// Lists of indices into what the step is over, and how many each has. Null: there is no such list.
+// Lists of indices of the step's items, and their lengths. Null: there is no such list.
 struct WorkLists {
-  // Items for the second kernel of this step: fast_path() has returned false, or they need a list.
+  // Items for the second kernel of this step: fast_path() has returned false for them, or they need a list.
   int *found = nullptr, *n_found = nullptr;
   int *n_found_next = nullptr;    // of the next step, to be cleared
-  // Items with more than one contact in the last step, and in this one. Most have them for many steps, so that
-  // the step begins with these.
+  // Items with more than one contact, in the last step and in this one. Most of them stay so for many steps, so the step
+  // begins with them.
   int *last = nullptr, *n_last = nullptr;
   int *next = nullptr, *n_next = nullptr;
-  // The newest step that begins with an item, for each item, and the number of this step.
+  // For each item the newest step that begins with it, and the number of this step.
   int *listed_in = nullptr, step = 0;
   void *memory = nullptr;    // of threads on the general path
   std::size_t memory_bytes = 0;
 };
 
-// Contacts that a kernel has room for on its stack: enough for nearly every sphere. One with more
-// takes a scratch memory, which has room for kMaxContacts.
+// The number of contacts for which a kernel has space on its stack: enough for nearly every sphere. A sphere with more
+// takes a scratch memory, which has space for kMaxContacts.
 constexpr int kContacts = 8;
 
-// Memory of a thread on the general path, with one mesh and with several. A CPU has it on the stack. A GPU sets the stack
-// of a kernel aside for all threads that it can hold, of which few take that path, so it has this for kMostGeneral
-// threads at most instead.
+// Memory of a thread on the general path, with one mesh and with several. A CPU has it on the stack. A GPU reserves the
+// stack of a kernel for all threads that it can hold, of which few take that path; therefore it has this memory
+// separately, for at most kMostGeneral threads.
 struct GeneralMemory {
   CornerRule<kContacts> rule;
 };
@@ -47,20 +47,19 @@ struct MultiMeshMemory {
 constexpr unsigned kStepBlock = 128;    // threads of a block
 constexpr std::size_t kMostGeneral = 528 * kStepBlock, kFewGeneral = 66 * kStepBlock;
 
-// Memory for the springs and contacts of a step. A sphere with a single contact has the place of its own number; one
+// Memory for the springs and contacts of a step. A sphere with a single contact has the place of its own number; a sphere
 // with more contacts reserves places from `shared` on.
 struct ContactPool {
   int shared, size;
-  int which;             // of the two pools
+  int which;             // index of the pool, 0 or 1
   int *first, *count;    // of each sphere
-  int *first_contact;    // of each candidate, where contacts are kept
+  int *first_contact;    // of each candidate, if contacts are kept
   Spring *springs;
   Real *extra;
   StepContact *contacts;
 };
 
-// Memory for the contacts of one sphere that has many: too much for a stack. Whoever holds the lock
-// has it.
+// Memory for the contacts of one sphere that has too many for a stack. It belongs to the thread that holds the lock.
 struct OverflowScratch {
   int locked;
   WeightedContacts<kMaxContacts> contacts,
@@ -69,8 +68,8 @@ struct OverflowScratch {
 };
 constexpr int kOverflowScratches = 8;    // 1 MB each
 
-// Candidates of more than one mesh. Sphere g owns slots first[g] .. first[g + 1] - 1, one per mesh, ascending. In
-// this job k is a slot, not a sphere.
+// Candidates of more than one mesh. Sphere g has the slots (candidate-mesh pairs) first[g] .. first[g + 1] - 1, one for
+// each mesh, ascending. In a job with these, k is a slot and not a sphere.
 struct MultiMeshSpheres {
   const MeshWork *meshes = nullptr;    // null: there are none in this job
   const int *first = nullptr;
@@ -85,7 +84,7 @@ struct StepJob {
   int first_slot =
       0;    // in the pool, of k = 0; read only by laws for walls that move or have several meshes
   MultiMeshSpheres multi_mesh = {};
-  FeatureLists lists = {};    // of each k; none: cells are searched
+  FeatureLists lists = {};    // of each k; empty: cells are searched
   StridedView<const Real> x, v, omega;
   Column<const Real> radius, mass, temperature;
   SpringsView springs = {};    // of the last step
@@ -93,17 +92,17 @@ struct StepJob {
   StepCounts *counts = nullptr;
   std::uint64_t step = 0;             // since counts were cleared
   StridedView<Real> force, torque;    // added to
-  Real *heat_flow = nullptr;          // added to, where the law has heat
+  Real *heat_flow = nullptr;          // added to, if the law has heat
   ResultColumns result = {};          // of each k
-  Real *heat = nullptr;               // of each k, where the law has heat
-  EnergyRows *energy = nullptr;       // of each k with is_booked, where the law books energy
+  Real *heat = nullptr;               // of each k, if the law has heat
+  EnergyRows *energy = nullptr;       // of each k with is_booked, if the law records energy
   char *is_booked = nullptr;
-  Real *uncertain = nullptr;    // overlap / radius that k's search may miss; null: nothing can be
+  Real *uncertain = nullptr;    // overlap / radius that k's search may miss; null: it can miss none
   ContactPool pool = {};
   OverflowScratch *overflow = nullptr;
   WorkLists work_lists = {};
-  EnergyRecordList records = {};    // where the law has them
-  // See EngineSettings; 0 where no time passes. Read only where the law books energy.
+  EnergyRecordList records = {};    // if the law has them
+  // See EngineSettings; 0 if no time passes. Read only if the law records energy.
   Real friction_heat = 0;
 };
 
@@ -112,8 +111,8 @@ LSDCD_FN std::size_t sphere_of(const StepJob &job, std::size_t k)
   return job.candidates[k];
 }
 
-// Returns the query for sphere i at x. `beyond`: does the law act beyond contact? `pull_off`: of the law, at a radius of
-// 1.
+// Returns the query for sphere i at x. `beyond`: does the law act beyond contact? `pull_off`: that of the law, at a
+// radius of 1.
 LSDCD_FN QuerySphere query_sphere_of(const StepJob &job, std::size_t i, const Vec3 &x, Real radius,
                                      bool beyond, Real pull_off)
 {
@@ -126,7 +125,7 @@ LSDCD_FN QuerySphere query_sphere_of(const StepJob &job, std::size_t i, const Ve
   return s;
 }
 
-// The same job from slot `first` on.
+// Returns the same job from slot `first` on.
 inline StepJob from_slot(StepJob job, std::size_t first)
 {
   job.candidates += first;
@@ -143,7 +142,7 @@ inline StepJob from_slot(StepJob job, std::size_t first)
   return job;
 }
 
-// Returns the part of a job that the spheres decide.
+// Returns the part of a job that depends on the spheres.
 inline StepJob job_of(const GridView &grid, const ForceSettings &settings, const Spheres &spheres)
 {
   StepJob job;
@@ -161,13 +160,13 @@ inline StepJob job_of(const GridView &grid, const ForceSettings &settings, const
   return job;
 }
 
-// Sphere i feels the wall from as far as `cutoff`: an error where the grid does not go there.
+// Notes an error if sphere i, which feels the wall from a distance of `cutoff`, reaches beyond the grid.
 LSDCD_FN void check_cutoff(const StepJob &job, std::size_t i, Real cutoff)
 {
   if (cutoff > job.grid.cutoff) raise_to(&job.counts->too_large, kNoSphere - i);
 }
 
-// Notes overlap / radius of sphere i at a mesh. Returns whether it is the deepest so far.
+// Notes the overlap / radius of sphere i at a mesh. Returns whether it is the deepest so far.
 LSDCD_FN bool record_overlap(const StepJob &job, std::size_t i, std::uint32_t mesh, Real ratio)
 {
   using Deepest = DeepestOverlap;
@@ -179,8 +178,8 @@ LSDCD_FN bool record_overlap(const StepJob &job, std::size_t i, std::uint32_t me
   return true;
 }
 
-// Counts a candidate k whose search may have missed a contact; `uncertain`: the overlap of the deepest one, 0 if
-// none. Its ratio to the radius is stored, as radii may be elsewhere when it is read.
+// Counts candidate k, whose search may have missed a contact. `uncertain`: the overlap of the deepest such contact, 0 if
+// there is none. Its ratio to the radius is stored, because radii may be elsewhere when it is read.
 LSDCD_FN void count_uncertain(const StepJob &job, std::size_t k, Real uncertain, Real radius)
 {
   if (!job.uncertain) return;
@@ -191,7 +190,7 @@ LSDCD_FN void count_uncertain(const StepJob &job, std::size_t k, Real uncertain,
   raise_to(&job.counts->uncertain, ascending_bits(static_cast<float>(ratio)));
 }
 
-// Candidate k, sphere i, touches nothing. Counts of springs that are 0 already are not written.
+// Stores that candidate k, sphere i, touches nothing. Counts of springs that are 0 already are not written.
 LSDCD_FN void put_no_contact(const StepJob &job, std::size_t k, std::size_t i)
 {
   job.result.n_contacts[k] = 0;
@@ -199,16 +198,16 @@ LSDCD_FN void put_no_contact(const StepJob &job, std::size_t k, std::size_t i)
   if (n_springs && job.settings.stores && n_springs[i] != 0) n_springs[i] = 0;
 }
 
-// There is no memory for the contacts of candidate k, sphere i: an error once the CPU reads the counts.
-// `counter`: of the memory that was used up. Until then the sphere has no springs, as its old ones are in the
-// other pool.
+// Notes that there is no memory for the contacts of candidate k, sphere i, which is an error once the CPU reads the
+// counts. `counter`: that of the memory that was used up. Until then the sphere has no springs, because its old ones are
+// in the other pool.
 LSDCD_FN void does_not_fit(const StepJob &job, std::size_t k, std::size_t i, int &counter)
 {
   fetch_add(&counter, 1);
   put_no_contact(job, k, i);
 }
 
-// Clears the counter of places of the other pool: the next step writes there, if this step moves springs.
+// Clears the counter of places of the other pool, to which the next step writes if this step moves springs.
 LSDCD_FN void clear_next(const StepJob &job)
 {
   if (job.settings.stores) job.counts->shared_used[1 - job.pool.which] = 0;

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How fast a sphere strikes a wall that it does not touch alone.
-//
-// A sphere that falls into a fold strikes one side and then the other one, or both at once, but has its energy once. So the speed of
-// an impact is that along the normal of what is left of the velocity when its parts along the normals that touch already, and along
-// those of impacts before it, are taken away. With each part goes its own energy, m (v.n)^2/2, so that all have m v^2/2 at most.
-// Overlaps are seen alike: the corner rule hides a contact behind those that push the sphere out of its overlap, so that it begins
+// The speed at which a sphere strikes a wall while it also touches others.
+// A sphere that falls into a fold strikes one side and then the other, or both at once, but has its energy only once. So the speed of
+// an impact is that along the normal of the velocity that is left after two kinds of parts have been taken away: those along normals
+// that touch already, and those of impacts before it. With each part goes its own energy, m (v.n)^2/2, so that all together have at
+// most m v^2/2. Overlaps are treated in the same way: the corner rule hides a contact behind those that push the sphere out of its
+// overlap, so that the contact begins when its overlap is larger than that.
 // where it overlaps by more than that.
 #pragma once
 
@@ -20,7 +20,7 @@ struct Strike {
   Real overlap;    // length
 };
 
-// What contacts have taken of a sphere's velocity, and by how far they push it out.
+// The parts of a sphere's velocity that contacts have taken, and how far they push the sphere out.
 class TakenAway {
  public:
   LSDCD_FN Real speed_left(const Strike &s) const { return s.speed - dot(velocity_, s.normal); }
@@ -28,7 +28,7 @@ class TakenAway {
   {
     return s.overlap - fmax(Real(0), dot(way_, s.normal));
   }
-  // Takes the parts along the normal, if any are left there.
+  // Takes the part along the normal away, if any is left.
   LSDCD_FN void take(const Strike &s)
   {
     const Real speed = speed_left(s), overlap = overlap_left(s);
