@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The kernel that books what pairs do with energy in a step, on every backend.
+// The kernel that computes the energy balance of pairs in a step, on every backend.
 #pragma once
 
 #include "pair/booked_law.h"
@@ -14,7 +14,8 @@
 
 namespace lsdcd {
 
-// Books what pairs do that touch, or did a step ago; a warp sums it. kOne: there is one law.
+// Records what pairs do with energy that touch now or did a step ago; a warp sums it. kOne: there
+// is only one law.
 template <class Law, bool kOne>
 struct BookPairs {
   static constexpr unsigned kBlocksAtOnce = Law::kContactTorque ? 3 : 4;
@@ -41,7 +42,7 @@ struct BookPairs {
   }
 
  private:
-  // Returns whether the pair is one of this law.
+  // Returns whether the pair has this law; if so, adds its energy to `sum`.
   LSDCD_FN bool book(const PairOfRow &pair, EnergyRows &sum) const
   {
     const int i = s.list.grain[pair.row], with = s.list.at(i, pair.place), j = with & s.list.mask;

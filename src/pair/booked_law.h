@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// From a law to the smallest of those with which pairs book energy.
+// Selects, for a law, the smallest of those with which pairs have an energy balance.
 #pragma once
 
 #include "law/smallest_model.h"
@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// A classic style without rolling and cohesion, which says what its force is made of.
+// A classic style without rolling and cohesion that says what its force is made of.
 template <class Base>
 struct BookedClassic : Base {
   template <class C>
@@ -33,8 +33,8 @@ struct BookedClassic : Base {
   }
 };
 
-// Calls make(law) with a law that keeps_forces: as with_energy_law(), but that a classic style alone has laws of its own. Those of
-// walls have not, whose kernels take longer to compile.
+// Calls make(law) with a law that keeps_forces, like with_energy_law(), except that a classic style alone has laws of its own.
+// Walls have no such laws, because their kernels take longer to compile.
 template <class Make>
 auto with_booked_law(const ContactLaw &p, const Make &make)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// From a law to its compiled form for pairs.
+// Makes the compiled form of a law for pairs.
 #pragma once
 
 #include "law/contact_law.h"
@@ -9,7 +9,8 @@
 
 namespace lsdcd {
 
-// The groups of laws that are compiled together, a source file each (laws/CMakeLists.txt).
+// Each of the following functions has a group of laws that are compiled together, with a source file for each group
+// (laws/CMakeLists.txt).
 PairLaw granular_pair(const ContactLaw &law);
 PairLaw granular_added_pair(const ContactLaw &law);
 PairLaw added_pair(const ContactLaw &law);
@@ -17,13 +18,13 @@ PairLaw classic_pair(const ContactLaw &law);
 
 PairLaw pair_law(const ContactLaw &law);
 
-// Gives a law the compiled form that books energy.
+// Gives a law the compiled form that records energy.
 void set_book(const ContactLaw &law, PairLaw &out);
 
-// A step of pairs, whatever the laws of the job are.
+// Runs a step of pairs, for any laws of the job.
 void run_pairs(const PairJob &job);
-// Adds what the pairs of a step that has run have done with energy to job.energy. What a pair had held that is in no list any
-// more is not `seen`.
+// Adds to job.energy what the pairs of a step that has run have done with energy. What was held by a pair that is no longer
+// in a list is not part of `seen`.
 void book_pairs(const PairJob &job);
 
 }    // namespace lsdcd

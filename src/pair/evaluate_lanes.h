@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The laws of pairs in lanes, of which a processor computes as many at once as its vectors hold. The compiler makes vectors of
-// the laws as they are written for one contact, so that a pair has the same bits in both. It does where every choice is one
-// between two numbers. A choice by the law's own numbers would be a branch: it is read from arrays in which all lanes have the same.
+// The laws of pairs in lanes: a processor computes as many lanes at once as its vectors hold. The compiler vectorises the laws as
+// they are written for one contact, so that a pair gets the same bits in both ways. It can do so if every decision is one between
+// two numbers. A decision by the law's own numbers would be a branch; therefore it is read from arrays in which all lanes have the
+// same value.
 #pragma once
 
 #include "law/contact_model.h"
@@ -14,7 +15,7 @@
 #include <cstdint>
 #include <type_traits>
 
-// GCC makes vectors of these loops.
+// The loops that GCC vectorises.
 #if defined(__GNUC__) && !defined(__clang__)
 #define LSDCD_WIDE_PAIRS
 #endif
@@ -70,7 +71,7 @@ void evaluate_lanes(const LawBytes &bytes, PairLanes &lanes, int n, Real dt, boo
 }
 
 #if defined(LSDCD_WIDE_PAIRS)
-// Call act(choice) for each choice of a law: a bool or an enumerator.
+// Call act(choice) for each option of a law: a bool or an enumerator.
 template <class Normal, class Damping, class Tangential, class Act>
 void each_choice(ContactModel<Normal, Damping, Tangential> &law, const Act &act)
 {
@@ -111,7 +112,7 @@ void prepare_lanes(const LawBytes &bytes, PairLanes &lanes)
   });
 }
 
-// Returns the choices of a law in one number.
+// Returns the options of a law in one number.
 template <class Law>
 std::uint64_t choices_of(const Law &given)
 {
@@ -124,8 +125,8 @@ std::uint64_t choices_of(const Law &given)
   return choices;
 }
 
-// Choices that a loop is compiled for: fix() makes constants of them. The usual ones of `granular` leave out roots and divisions of
-// sub-models that few laws have.
+// The options for which a loop is compiled: fix() makes constants of them. The usual options of `granular` leave out roots and
+// divisions of sub-models that few laws have.
 struct AnyChoice {
   template <class Law>
   static void fix(Law &)
@@ -146,7 +147,7 @@ struct UsualChoice {
     law.conduction.model = HeatModel::none;
   }
 };
-// Those of LIGGGHTS.
+// The options of LIGGGHTS's friction.
 template <RollingModel rolling>
 struct RollingChoice {
   template <class Base, bool kHistory>
@@ -164,7 +165,7 @@ struct RollingChoice {
   }
 };
 
-// Has a law made these choices? Then fix() changes none.
+// Returns whether a law has these options, so that fix() changes none of them.
 template <class Choice, class Law>
 bool fits(const Law &law)
 {
@@ -173,7 +174,7 @@ bool fits(const Law &law)
   return choices_of(fixed) == choices_of(law);
 }
 
-// Computes the pair of a lane with the choices that the lane has.
+// Computes the pair of a lane with the options of the lane.
 template <class Choice, class Law>
 inline void evaluate_chosen(const Law &given, PairLanes &lanes, int k, Real dt)
 {
@@ -215,7 +216,7 @@ template <class Law, class Choice>
 }
 #endif
 
-// Returns the loop for the widest vectors that the processor has; null where these are too few.
+// Returns the loop for the widest vectors that the processor has; null if these are too short.
 template <class Law, class Choice>
 auto widest_loop() -> decltype(PairLaw::evaluate_wide)
 {
@@ -228,7 +229,7 @@ auto widest_loop() -> decltype(PairLaw::evaluate_wide)
   return evaluate_wide<Law, Choice>;
 #endif
 }
-// Takes the first choices that fit.
+// Selects the loop of the first options that fit.
 template <class First, class... More, class Law>
 void set_wide(const Law &law, PairLaw &out)
 {
@@ -291,7 +292,7 @@ PairLaw compiled_pair(const Law &law, Real pull_off)
   if constexpr (Law::kHeat) out.has_heat = law.has_heat();
   if constexpr (Law::kHistory) out.stored = stored_numbers(law);
 #if defined(LSDCD_WIDE_PAIRS)
-  if constexpr (!Law::kBeyondContact) {    // whose contact radius is found by steps
+  if constexpr (!Law::kBeyondContact) {    // whose contact radius is found by iteration
     set_wide_of(law, out);
     out.prepare = prepare_lanes<Law>;
     out.choices = choices_of(law);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the contact of two grains does with energy in a step, as contact_energy.h has it of a wall. Forces have been computed by the
-// law without books: this computes the pair once more, with the law that says what its force is made of, and keeps the parts for
-// the next step. Where the grains were a step ago follows from their velocities.
+// What the contact of two grains does with energy in a step; contact_energy.h has the same for a wall. Forces have been computed by
+// the law without energy balance. This code computes the pair once more, with the law that says what its force is made of, and
+// keeps the parts for the next step. The places of the grains a step ago follow from their velocities.
 #pragma once
 
 #include "engine/step/contact_energy.h"
@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-// Motion and arms of a pair, at the end of a step or at its begin.
+// Motion and arms of a pair, at the end of a step or at its beginning.
 struct PairMotion {
   Vec3 n;
   Vec3 v, omega_i, omega_j;    // v: of i less that of j
@@ -59,7 +59,7 @@ LSDCD_FN void add_pair_half(const Law &, const PairMotion &m, const KeptForces &
                  cross((m.slip_i - m.arm_i) * m.omega_i + (m.slip_j - m.arm_j) * m.omega_j, m.n));
 }
 
-// A pair keeps KeptForces behind its springs.
+// Returns the KeptForces of a pair, which follow its springs.
 template <class From>
 LSDCD_FN KeptForces read_kept(const From &numbers, int at)
 {
@@ -77,8 +77,8 @@ LSDCD_FN void write_kept(const KeptForces &kept, const To &numbers, int at)
   for (int k = 0; k < kKeptForces; k++) numbers[at + k] = all[k];
 }
 
-// Books the second half of what a pair did in the last step, of which it has kept `numbers`. `goes_on`: it still touches; else it
-// has parted.
+// Adds the second half of what a pair did in the last step, of which it has kept `numbers`. `goes_on`: it still touches; otherwise
+// it has parted.
 template <class Law>
 LSDCD_FN void book_old_pair(const Law &law, const GrainPair &p, const PairNumbers<Real> &numbers,
                             int width, bool goes_on, EnergyRows &rows)
@@ -103,8 +103,8 @@ LSDCD_FN void book_old_pair(const Law &law, const GrainPair &p, const PairNumber
   book_springs_at_end(law, old, m.n, m.slip, rolling, twisting, p.dt, rows);
 }
 
-// Books what a pair begins with that touched nothing before. Grains that adhere jump into contact where they touch; those that
-// were put there were in contact a step ago.
+// Adds the energy with which a pair begins that did not touch before. Grains that adhere jump into contact when they touch; grains
+// that were put into overlap were in contact a step ago.
 template <class Law>
 LSDCD_FN void begin_pair(const Law &law, const GrainPair &p, const PairContact &c, EnergyRows &rows)
 {
@@ -116,13 +116,13 @@ LSDCD_FN void begin_pair(const Law &law, const GrainPair &p, const PairContact &
     rows[EnergyRow::adhesion] -= law.normal_energy(c, 0);
 }
 
-// Returns a vector that a pair has kept in the plane of this step, as the law turns its springs.
+// Returns a vector that a pair has kept, turned into the tangent plane of this step in the same way as the law turns its springs.
 LSDCD_FN Vec3 turned_as(const SpringPart &spring, const Vec3 &h, const Vec3 &n)
 {
   return spring.projected ? h - dot(h, n) * n : turned_into_plane(h, n, 1, 0);
 }
 
-// A law that remembers what it was asked and what it said, so that evaluate_pair() need not.
+// A law that stores its argument and its result, so that evaluate_pair() need not.
 template <class Law>
 struct HeardLaw : Law {
   PairContact *contact;
@@ -135,8 +135,8 @@ struct HeardLaw : Law {
   }
 };
 
-// Books the first half of what a pair that touches does in this step, and its springs, and writes the forces that it keeps.
-// make_pair() returns the pair, twice: what it is read from is in caches, and the registers of a GPU are few.
+// Adds the first half of what a touching pair does in this step, and its springs, and writes the forces that it keeps. make_pair()
+// returns the pair. It is called twice, because what it reads is in caches, and a GPU has few registers.
 template <class Law, class MakePair>
 LSDCD_FN void book_new_pair(const Law &law, const MakePair &make_pair,
                             const PairNumbers<Real> &old_numbers, const PairNumbers<Real> &numbers,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Pairs of grains where their host has them: in the memory of a CPU or of a GPU. Pointers of a step are to that memory.
+// The engine for pairs of grains in the host's memory: of a CPU or of a GPU. Pointers of a step are to that memory.
 #pragma once
 
 #include "base/strided_view.h"
@@ -15,7 +15,7 @@
 
 namespace lsdcd {
 
-// The name of each grain, in 32 or 64 bits.
+// The names of the grains, in 32 or 64 bits.
 struct GrainNames {
   const void *at = nullptr;
   bool wide = false;
@@ -27,32 +27,31 @@ struct GrainNames {
   }
 };
 
-// The host's list: rows of neighbours, as PairList has them, in memory of any layout.
+// The host's list: rows of neighbours, as in PairList, in memory of any layout.
 struct PairRows {
   int rows = 0;
   const int *grain = nullptr, *length = nullptr;
   const int *neighbor = nullptr;
   std::ptrdiff_t row = 0,
-                 place =
-                     0;    // from one grain to the next, and from one of its neighbours to the next
-  int longest = 0;         // no row is longer
+                 place = 0;    // strides: from grain to grain, and from neighbour to neighbour
+  int longest = 0;             // no row is longer
   int mask = 0, factor_shift = 0;
   bool full = false;    // a pair is in the rows of both its grains; else in one of them
 
   LSDCD_FN int at(int i, int k) const { return neighbor[i * row + k * place]; }
 };
 
-// What is asked of grains while a list is made anew. x is read where `near` is above 0.
+// The data of grains that are needed when a list is made anew. x is read if `near` is above 0.
 struct ListedGrains {
   GrainNames name;
   const int *type = nullptr;
   StridedView<const Real> x = {};
   int n_all = 0;
   Real near =
-      0;    // half of the least way from one image of a grain to another (length), where a grain may touch several; else 0
+      0;    // half of the least distance between two images of a grain (length), if a grain may touch several; else 0
 };
 
-// What a step of pairs reads and writes; see PairJob. In a full list grains beyond n_own are read only.
+// What a step of pairs reads and writes; see PairJob. In a full list grains beyond n_own are only read.
 struct PairInput {
   StridedView<const Real> x, v, omega;
   const Real *radius = nullptr, *mass = nullptr;
@@ -69,45 +68,46 @@ struct PairInput {
   bool update = false;
 };
 
-// Sums over the pairs of a step: the elastic energy, and offset times force, xx, yy, zz, xy, xz, yz. Half of a pair is each grain's.
+// Number of sums over the pairs of a step: the elastic energy, and offset times force, xx, yy, zz, xy, xz, yz. Each grain gets half
+// of a pair.
 constexpr int kPairSums = 7;
 
-// The laws of pairs, as PairJob has them.
+// The laws of pairs, as in PairJob.
 struct PairLaws {
   std::vector<ContactLaw> laws;
   std::vector<int> law_of;
-  int n_types = 0;        // one more than there are
-  int width = 0;          // numbers that a pair keeps
-  bool books = false;     // the last of them are KeptForces, and energy is booked
-  bool by_law = false;    // laws keep numbers of several kinds
+  int n_types = 0;        // one more than the number of types
+  int width = 0;          // number of values that a pair keeps
+  bool books = false;     // the last values are KeptForces, and energy is recorded
+  bool by_law = false;    // laws keep values of several kinds
 };
 
 class PairEngine {
  public:
   virtual ~PairEngine() = default;
 
-  // Before a run. With another width nothing is kept of before.
+  // Sets the laws before a run. If the width changes, nothing that was kept before stays.
   virtual void set_laws(const PairLaws &laws) = 0;
-  // Adds forces and torques. With `sums` (kPairSums of them, on the CPU) these become those of grains that n_own or, with
-  // both_sides, n_all counts.
+  // Adds forces and torques. `sums`: kPairSums numbers on the CPU, which become the sums over the first n_own grains, or with
+  // both_sides over the first n_all; or null.
   virtual void run(const PairInput &step, Real *sums) = 0;
-  // Books the energy of the step that has run, where laws have `books`: adds to rows on the CPU what PairJob::energy has.
+  // Adds the energy of the step that has run to rows on the CPU, if laws have `books`; see PairJob::energy.
   virtual void book(EnergyRows &rows) = 0;
-  // Copies to the CPU what each of the first n grains has of the last sums: column k is [k * n, (k + 1) * n).
+  // Copies the parts of the last sums that belong to each of the first n grains to the CPU: column k is [k * n, (k + 1) * n).
   virtual void sums_of_grains(int n, std::vector<Real> &to) = 0;
 
-  // What pairs keep, by grain and partner: see Partners. It is there from collect(), from_cpu() and unpack() to hand_out(). The list
-  // of collect() is that of the last step, and laws are those of the types that grains had then. hand_out() returns whether numbers
-  // were cleared, as the pair has a law of another kind.
+  // The following functions bring what pairs keep to grains and partners, see Partners, and back. It is there from collect(),
+  // from_cpu() or unpack() until hand_out(). The list of collect() is that of the last step, and laws are those of the types that
+  // grains had in that step. hand_out() returns whether it has cleared any numbers because the pair has a law of another kind.
   virtual void collect(const PairRows &list, const ListedGrains &grains, int n) = 0;
   virtual bool hand_out(const PairRows &list, const ListedGrains &grains) = 0;
-  // Types may have changed since the last step, with the same list and laws by_law. Returns what hand_out() does.
+  // Notes that types may have changed since the last step, for the same list and laws by_law. Returns the same as hand_out().
   virtual bool note_types(const PairRows &list, const ListedGrains &grains) = 0;
   virtual void to_cpu(Partners &partners, int n) = 0;
   virtual void from_cpu(const Partners &partners, int n) = 0;
 
-  // For a host that moves grains where the engine computes: see Springs (engine/springs.h). A grain has a first partner and a
-  // count.
+  // The following functions are for a host that moves grains in the memory of the engine: see Springs (engine/springs.h). A grain
+  // has a first partner and a count.
   virtual void grow(int n) = 0;
   virtual int *first() = 0;
   virtual int *count() = 0;

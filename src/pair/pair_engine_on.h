@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The engine of pairs on a backend. What touching pairs keep is in two pools, of which a step reads one and writes the other;
-// between lists the other one has it by grain and partner.
+// The engine of pairs on a backend. What touching pairs keep is in two pools; a step reads one and writes the other. While lists are
+// made anew, the other pool has it by grain and partner.
 #pragma once
 
 #include "backend/backend.h"
@@ -25,8 +25,8 @@ class PairEngineOn : public PairEngine {
   static constexpr unsigned kStep = B::kOnCpu ? 1 : kGpuPairStep;
 
  public:
-  // `most_bytes`: where what all pairs of a list would keep takes no more, a step has room for it and need not wait until it is known
-  // how many touch: one of few grains takes no longer on a GPU than to start it.
+  // `most_bytes`: if what all pairs of a list would keep takes no more than this, memory for all of them is reserved, and a step need
+  // not wait until the number of touching pairs is known. A step of few grains takes no longer on a GPU than its start.
   explicit PairEngineOn(B backend, std::size_t most_bytes = std::size_t(256) << 20) :
       b_(std::move(backend)), most_bytes_(most_bytes), n_pairs_(2), places_(1), seen_(1)
   {
@@ -119,7 +119,7 @@ class PairEngineOn : public PairEngine {
         b_.copy_out(s.n_pairs, seen_.data(), 1);
         counted_.record(b_);
       }
-      // The pairs are started before it is known whether there is room, and a GPU need not wait for the CPU.
+      // The pairs are started before it is known whether there is enough memory, so that a GPU need not wait for the CPU.
       add(s, next);
       if (may_not_fit) {
         counted_.wait();
@@ -142,7 +142,7 @@ class PairEngineOn : public PairEngine {
   void book(EnergyRows &rows) override
   {
     PairStepView s = last_step_;
-    constexpr std::size_t kRows = B::kOnCpu ? 1 : kWarpSize;    // that share a sum
+    constexpr std::size_t kRows = B::kOnCpu ? 1 : kWarpSize;    // rows that share a sum
     const std::size_t n = (static_cast<std::size_t>(s.list.rows) + kRows - 1) / kRows;
     if (books_.empty() || n == 0) return;
     s.laws = booked_bytes_.data();
@@ -215,7 +215,7 @@ class PairEngineOn : public PairEngine {
       b_.for_each_in_warps(rows, TakePlaces{list, count_.data(), places_.data(), to.first.data()});
       const PlaceCounts places = read_one(b_, places_.data());
       most_places_ = places.most;
-      // In a half list a grain has partners in other rows than its own, too.
+      // In a half list a grain also has partners in the rows of other grains.
       to.reserve(std::max<std::size_t>(places.taken, fits_all(most_places_) ? most_places_ : 0),
                  width_);
       b_.for_each(rows, HandOut{list, words, to.view(width_), grains, kinds_of_laws(), of_law_,
@@ -340,7 +340,7 @@ class PairEngineOn : public PairEngine {
       words.reserve(rows * of_row);
       if (keeps) first.reserve(rows);
     }
-    // A column begins where 32 bytes do.
+    // Columns begin at multiples of 32 bytes.
     std::size_t room(int width) const
     {
       return width > 0 ? numbers.size() / width / kStep * kStep : 0;
@@ -367,12 +367,12 @@ class PairEngineOn : public PairEngine {
   {
     return std::max(1, (list.longest + kWordBits - 1) / kWordBits);
   }
-  // Is there memory for all pairs of a list in both pools?
+  // Returns whether both pools have memory for all pairs of a list.
   bool fits_all(std::size_t places) const
   {
     return width_ > 0 && places <= most_bytes_ / (2 * sizeof(Real) * width_);
   }
-  // Makes room in a pool that nothing is kept in, of which kernels may still read.
+  // Reserves memory in a pool in which nothing is kept, but which kernels may still read.
   void make_room(Pool &pool, std::size_t places)
   {
     if (pool.room(width_) >= places) return;
@@ -394,7 +394,7 @@ class PairEngineOn : public PairEngine {
   {
     return {law_of_.data(), n_types_, flips_.data(), history_kind_.data()};
   }
-  // Keeps the types of grains, once kernels have read those of before. Returns whether one of these has cleared numbers.
+  // Stores the types of grains after kernels have read the previous ones. Returns whether one of the kernels has cleared numbers.
   bool keep_types(const ListedGrains &grains)
   {
     b_.wait();
@@ -447,7 +447,7 @@ class PairEngineOn : public PairEngine {
     }
   }
 
-  // A scan's total is the sum.
+  // Computes a sum as the total of a scan.
   void add_up(int n, Real *sums)
   {
     more_.reserve(static_cast<std::size_t>(n));
@@ -471,18 +471,18 @@ class PairEngineOn : public PairEngine {
 
   Pool pool_[2];
   int now_ = 0;                     // the pool that the last step has written
-  bool has_last_ = false;           // is there anything in it?
-  Array<std::uint32_t> n_pairs_;    // of two steps in turn, of which one clears that of the next
+  bool has_last_ = false;           // has the last step written anything to it?
+  Array<std::uint32_t> n_pairs_;    // of two steps in turn; each step clears that of the next one
   int turn_ = 0;                    // of the next step
   static constexpr std::size_t kUnknown = ~std::size_t(0);
-  std::size_t most_places_ = kUnknown;    // for pairs in any step of this list
+  std::size_t most_places_ = kUnknown;    // the most places for pairs in any step of this list
   Array<PlaceCounts> places_;
   typename B::template CpuArray<std::uint32_t> seen_;
   typename B::Event counted_;
   Array<Real> sums_, more_;
   std::size_t sums_n_ = 0;
 
-  // Of books of energy: the laws of each kind, all laws, the last step, what the pairs of rows that share a sum do.
+  // For the energy balance: the laws of each kind, all laws, the last step, and the energy of pairs of rows that share a sum.
   std::vector<PairBookOn<B>> books_;
   Array<LawBytes> booked_bytes_;
   Array<int> booked_kind_of_;
@@ -494,8 +494,8 @@ class PairEngineOn : public PairEngine {
   Array<int> first_, count_, offsets_;    // of partners
   Array<Partners::Name> name_;            // their numbers are in the pool that the next step writes
   PartnerForm form_;                      // of these numbers
-  std::size_t end_ = 0;                   // of what is used of them
-  Array<int> types_;                      // of grains, when laws of several kinds were looked up
+  std::size_t end_ = 0;                   // end of the used part
+  Array<int> types_;                      // of grains, at the last lookup of laws of several kinds
   typename B::template CpuArray<int> cleared_ = typename B::template CpuArray<int>(1);
 };
 

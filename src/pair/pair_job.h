@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a step of pairs reads and writes.
+// The input and output of a step of pairs.
 #pragma once
 
 #include "base/strided_view.h"
@@ -17,7 +17,7 @@
 
 namespace lsdcd {
 
-// The host's list: rows of neighbours. A neighbour's bits above `mask` choose a factor of the force.
+// The host's list: rows of neighbours. The bits of a neighbour above `mask` select a factor of the force.
 struct PairList {
   int rows;
   const int *grain, *length;    // grain of each row; length[i] and row[i] are of grain i
@@ -25,7 +25,7 @@ struct PairList {
   int mask, factor_shift;
 };
 
-// Numbers of a pair, `step` apart.
+// The numbers of a pair, `step` apart.
 template <class T>
 struct PairNumbers {
   T *at;
@@ -47,18 +47,18 @@ struct PairNumbers {
   }
 };
 
-// What touching pairs keep from step to step, in the order of the host's list: the number of the pair in the list, counted over
-// all rows, and `width` numbers as the first grain of the row sees them.
+// What touching pairs keep from step to step, in the order of the host's list. For each pair it has the number of the pair in the list,
+// counted over all rows, and `width` numbers as the first grain of the row sees them.
 class PairHistory {
  public:
-  // Begins to write pairs with `width` numbers each.
+  // Starts to write pairs with `width` numbers each.
   void begin(int width)
   {
     if (width != this->width()) room_ = 0;
     width_ = static_cast<std::size_t>(width);
     size_ = 0;
   }
-  // Appends n pairs with these numbers in the list, and returns the first. What they keep is to be written.
+  // Appends n pairs with these numbers in the list, and returns the first of them. The caller writes what they keep.
   std::size_t append(const std::size_t *keys, int n);
 
   int width() const { return static_cast<int>(width_); }
@@ -69,9 +69,9 @@ class PairHistory {
   {
     return pair + n <= size_ && std::equal(keys, keys + n, key_.get() + pair);
   }
-  // Returns the pair with this number in the list, or size().
+  // Returns the pair with this number in the list, or size() if there is none.
   std::size_t find(std::size_t key) const;
-  // The k-th numbers of all pairs lie side by side.
+  // Returns the k-th numbers of all pairs, which lie side by side.
   Real *column(int k) { return numbers_.get() + room_ * static_cast<std::size_t>(k); }
   const Real *column(int k) const { return numbers_.get() + room_ * static_cast<std::size_t>(k); }
   PairNumbers<Real> of(std::size_t pair) const { return {numbers_.get() + pair, room_}; }
@@ -92,22 +92,22 @@ class PairHistory {
 // Force, torques and heat of a pair in a step.
 struct PairForce {
   Vec3 normal;            // unit, from j to i
-  Real push;              // force along it on i, < 0 where it pulls
+  Real push;              // force along it on i, < 0 if it pulls
   Vec3 friction;          // tangential force on i
-  Vec3 contact_torque;    // on i, beside that of the friction; j has its opposite
+  Vec3 contact_torque;    // on i, in addition to the torque of friction; j has its opposite
   Real arm_i, arm_j;      // of the friction
   Real heat;              // power into i
-  Real energy;            // elastic, as ContactForce has it
+  Real energy;            // elastic, as in ContactForce
 
   LSDCD_FN Vec3 force() const { return push * normal + friction; }    // on i; j has its opposite
   LSDCD_FN Vec3 torque_i() const { return contact_torque - arm_i * cross(normal, friction); }
   LSDCD_FN Vec3 torque_j() const { return -arm_j * cross(normal, friction) - contact_torque; }
 };
 
-// A force with its grains, where the host asks for these one by one.
+// A force with its two grains, for a host that asks for forces one by one.
 struct RecordedPair {
   int i, j;
-  Vec3 offset, force;    // of i less that of j; on i
+  Vec3 offset, force;    // of i less that of j; force on i
   Real energy;
 };
 
@@ -130,17 +130,18 @@ struct PairLaw {
   Real pull_off;    // see ContactLaw::pull_off()
   bool has_heat;
   unsigned stored;    // see stored_numbers() (pair_kernel.h)
-  // Computes one pair: see evaluate_pair() (pair_kernel.h). False: it does not touch, and nothing is changed.
+  // Computes one pair: see evaluate_pair() (pair_kernel.h). Returns false if it does not touch; then nothing is changed.
   bool (*evaluate)(const LawBytes &, const GrainPair &, bool touched, const Real *old, Real *kept,
                    PairForce &);
   // Computes n pairs in lanes (evaluate_lanes.h), one by one.
   void (*evaluate_lanes)(const LawBytes &, PairLanes &, int n, Real dt, bool update);
-  // Computes them in vectors, in steps in which springs move; prepare() has been called for these lanes. Null: there is no such loop.
+  // Computes n pairs in vectors, in steps in which springs move. prepare() must have been called for these lanes. Null: there is no such
+  // loop.
   void (*evaluate_wide)(const LawBytes &, PairLanes &, int n, Real dt);
   void (*prepare)(const LawBytes &, PairLanes &);
   std::uint64_t
-      choices;    // what prepare() writes: the same for laws with the same prepare() and choices
-  // The law that books energy, and what it does to a pair that touches now or did a step ago (pair_energy.h). Null: pairs do not keep
+      choices;    // what prepare() writes: equal for laws with the same prepare() and options
+  // The law that records energy, and the function for a pair that touches now or did a step ago (pair_energy.h). Null: pairs do not keep
   // their forces.
   LawBytes booked;
   void (*book)(const LawBytes &, const GrainPair &, const PairNumbers<Real> &old,
@@ -148,21 +149,21 @@ struct PairLaw {
 };
 
 struct PairJob {
-  // Grains: three numbers each but for radius, mass and type. Those from n_own on are copies of others.
+  // Grains: three numbers each, except one for radius, mass and type. Grains from n_own on are copies of others.
   const Real *x, *v, *omega, *radius, *mass;
-  const int *type;    // from 1
+  const int *type;    // grains with the bits `frozen` do not move; null: none is frozen
   const int *mask;    // those of `frozen` do not move; null: none is frozen
   int frozen = 0;
   Real *force, *torque;                 // added to
-  const Real *temperature = nullptr;    // read where laws have heat
+  const Real *temperature = nullptr;    // read if laws have heat
   Real *heat = nullptr;
   int n_own;
   bool both_sides;    // add to copies, too
 
   PairList list;
-  const Real *factor;    // four of them
+  const Real *factor;    // four factors
 
-  // Laws by types t and u at law_of[t * n_types + u], counted from 1; n_types is one more than there are.
+  // The law of types t and u is laws[law_of[t * n_types + u]]. Types are counted from 1; n_types is one more than their number.
   const PairLaw *laws;
   int n_laws;
   const int *law_of;
@@ -173,8 +174,8 @@ struct PairJob {
   Real dt;
   bool update;    // false: springs act but do not move (setup)
 
-  // Null: energy is not booked. Else laws have `book`, and the last numbers of a pair in the history are KeptForces. What pairs do
-  // with energy is added; unless both_sides half of a pair with a copy is here.
+  // Null: energy is not recorded. Otherwise laws have `book`, and the last numbers of a pair in the history are KeptForces. The energy
+  // of pairs is added to it; for a pair with a copy only half of it, unless both_sides.
   EnergyRows *energy = nullptr;
   std::vector<RecordedPair> *record = nullptr;    // null: forces are not asked for one by one
 };
@@ -188,15 +189,16 @@ LSDCD_FN Vec3 vec_of(const StridedView<const Real> &all, int i)
   return all[i];
 }
 
-// Returns whether neither grain moves. Such pairs do not act, as it is chance which of them a list has. Job: with `mask` and `frozen` as
-// in PairJob.
+// Returns whether neither grain moves. Such pairs do not act, because it is chance which of them are in a list. Job: with `mask` and
+// `frozen` as in PairJob.
 template <class Job>
 LSDCD_FN bool are_frozen(const Job &job, int i, int j)
 {
   return job.mask && (job.mask[i] & job.mask[j] & job.frozen);
 }
 
-// The reduced mass of a grain and one that does not move is that of the first. Job: with `mask` and `frozen` as in PairJob.
+// Returns the reduced mass of two grains. If one of them does not move, it is the mass of the other. Job: with `mask` and `frozen` as in
+// PairJob.
 template <class Job>
 LSDCD_FN Real reduced_mass(const Job &job, int i, int j, Real mass_i, Real mass_j)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Two grains as a contact of the wall's laws.
+// Computes two grains as a contact of the wall's laws.
 #pragma once
 
 #include "law/contact.h"
@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// Does adhesion hold grains beyond contact? `pull_off`: see ContactLaw::pull_off().
+// Returns whether adhesion can hold grains beyond contact. `pull_off`: see ContactLaw::pull_off().
 LSDCD_FN bool is_held(const GrainPair &p, Real pull_off)
 {
   const Real sum = p.radius_i + p.radius_j;
@@ -18,7 +18,7 @@ LSDCD_FN bool is_held(const GrainPair &p, Real pull_off)
   return p.distance_sq < reach * reach;
 }
 
-// Do the grains touch, or does adhesion hold them? It holds those that have touched.
+// Returns whether the grains touch, or adhesion holds them. It holds only grains that have touched.
 template <class Law>
 LSDCD_FN bool pair_touches(const Law &law, const GrainPair &p, bool touched)
 {
@@ -28,8 +28,8 @@ LSDCD_FN bool pair_touches(const Law &law, const GrainPair &p, bool touched)
   return false;
 }
 
-// What the law keeps: the shear displacement, then vectors and scalars that it stores. `from` null: nothing yet. From and To:
-// pointers to numbers, or what acts as one.
+// Copies the memory of a law: the shear displacement, then the vectors and scalars that it stores. `from` null: there is
+// nothing yet. From and To: pointers to numbers, or types that act like one.
 template <class Law, class From>
 LSDCD_FN ContactMemory<Law::kExtra> read_memory(const Law &law, From from)
 {
@@ -62,7 +62,8 @@ LSDCD_FN void write_memory(const Law &law, const ContactMemory<Law::kExtra> &mem
   }
 }
 
-// Returns which numbers of its memory a pair keeps: bit k is of the k-th, the shear displacement first, then `extra`.
+// Returns which numbers of its memory a pair keeps: bit k is for the k-th number; the shear displacement comes first, then
+// `extra`.
 template <class Law>
 unsigned stored_numbers(const Law &law)
 {
@@ -82,14 +83,14 @@ LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, ContactMemory<La
                             PairForce &out)
 {
   const Real sum = p.radius_i + p.radius_j, distance = sqrt(p.distance_sq);
-  const Real per_both = 1 / (distance * sum);    // one division for two
+  const Real per_both = 1 / (distance * sum);    // one division instead of two
   PairContact c;
   c.normal = (per_both * sum) * p.offset;
   c.overlap = sum - distance;
   c.radius = p.radius_i * p.radius_j * (per_both * distance);
   c.mass = p.mass;
   c.v_normal = dot(p.velocity, c.normal);
-  Real less = 0;    // of the arms of slip
+  Real less = 0;    // reduction of the arms of slip
   if constexpr (Law::kMidpoint)
     if (law.is_at_midpoint()) less = c.overlap / 2;
   c.v_tangent = p.velocity - c.v_normal * c.normal -
@@ -118,8 +119,8 @@ LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, ContactMemory<La
     if (law.has_heat()) out.heat = f.heat;
 }
 
-// The same with numbers as they are stored. Where the law has history, `old` is what the pair has kept, null if nothing, and
-// `kept` what it keeps now.
+// Does the same with numbers as they are stored. If the law has history, `old` is what the pair has kept, or null if nothing,
+// and `kept` is what it keeps now.
 template <class Law, class From, class To>
 LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, From old, To kept, PairForce &out)
 {

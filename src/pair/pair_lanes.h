@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Pairs of one law side by side: every number of a pair has an array, and a lane is a pair's place in all of them.
+// Pairs of one law side by side: there is an array for every number of a pair, and a lane is the place of a pair in all
+// of them.
 #pragma once
 
 #include "base/vec3.h"
@@ -12,9 +13,9 @@ namespace lsdcd {
 
 constexpr int kLanes = 32, kLaneChoices = 13;
 constexpr int kMoreLanes =
-    7;    // as many lanes behind the last pair are computed, too, so that there are whole vectors
+    7;    // so many lanes after the last pair are computed, too, so that all vectors are full
 constexpr int kLaneNumbers =
-    8;    // the shear displacement, and what the laws with most numbers have beside it
+    8;    // the shear displacement, and what the laws with most numbers have in addition
 
 using Lane = Real[kLanes];
 
@@ -22,7 +23,8 @@ struct alignas(64) PairLanes {
   // Grains: see GrainPair.
   Lane offset[3], velocity[3], omega_i[3], omega_j[3];
   Lane radius_i, radius_j, mass_i, mass_j, mass, temperature_difference;
-  // ContactMemory before and after: shear displacement, then `extra`. Here or elsewhere, with room for kMoreLanes behind.
+  // ContactMemory before and after: shear displacement, then `extra`. It may also be elsewhere, with space for kMoreLanes
+  // more.
   Lane memory[kLaneNumbers];
   const Real *before[kLaneNumbers];
   Real *after[kLaneNumbers];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Kernels that bring what pairs of a list keep to grains and partners, and back; and these into messages.
+// Kernels that copy what the pairs of a list keep to grains and partners, and back, and from there to messages.
 #pragma once
 
 #include "base/packed_integer.h"
@@ -23,7 +23,7 @@ LSDCD_FN void for_touching(const PairRows &list, int words, const std::uint32_t 
       f(list.at(i, kWordBits * w + static_cast<int>(lowest_bit(bits))) & list.mask);
 }
 
-// Of laws: what tells their numbers apart, and which of these flip (ContactLaw).
+// The kinds of laws: a kind says which numbers a law keeps, and which of these change sign (ContactLaw).
 struct KindsOfLaws {
   const int *law_of;
   int n_types;
@@ -36,7 +36,7 @@ struct KindsOfLaws {
   }
 };
 
-// What grains have of partners, while kernels fill it.
+// The partners of grains, while kernels write them.
 struct PartnersView {
   int n;
   PartnerForm form;
@@ -98,7 +98,7 @@ struct FillPartners {
   }
 };
 
-// Clears the first of_law numbers of pairs that touch and whose law is of another kind than it was with types `was`.
+// Clears the first of_law numbers of touching pairs whose law is of another kind than it was with the types `was`.
 struct ClearOfOtherLaws {
   PairRows list;
   int words;
@@ -107,7 +107,7 @@ struct ClearOfOtherLaws {
   const int *was, *type;
   int of_law;
   unsigned step;    // see kGpuPairStep
-  int *cleared;     // becomes 1 where one was not 0
+  int *cleared;     // becomes 1 if one of them was not 0
 
   LSDCD_FN void operator()(std::size_t k) const
   {
@@ -129,13 +129,13 @@ struct ClearOfOtherLaws {
   }
 };
 
-// Places for what pairs of a list keep: those that are taken, and those that it would take if all its pairs touched.
+// Numbers of places for what pairs of a list keep: those that are taken, and those that would be if all pairs touched.
 struct PlaceCounts {
   std::uint64_t most;
   std::uint32_t taken;
 };
 
-// Takes places for as many pairs of a row as its grain has partners.
+// Reserves places for as many pairs of a row as its grain has partners.
 struct TakePlaces {
   PairRows list;
   const int *count;    // of partners
@@ -153,7 +153,7 @@ struct TakePlaces {
   }
 };
 
-// Gives what partners have to the pairs of a new list; see Partners::hand_out().
+// Transfers what partners have to the pairs of a new list; see Partners::hand_out().
 struct HandOut {
   PairRows list;
   int words;
@@ -163,7 +163,7 @@ struct HandOut {
   int of_law;
   unsigned step;    // see kGpuPairStep
   PartnersView from;
-  int *cleared;    // becomes 1 where a number was not 0
+  int *cleared;    // becomes 1 if a number was not 0
 
   LSDCD_FN void operator()(std::size_t k) const
   {
@@ -204,8 +204,8 @@ struct HandOut {
   }
 };
 
-// Kernels for messages. A message has the offset of each grain's numbers, as an integer in a double, then for each grain its
-// count of partners, and for each the name and the numbers.
+// Kernels for messages. A message has first the offset of each grain's numbers, as an integer in a double, and then for each
+// grain the count of its partners, and for each partner its name and its numbers.
 struct ReadInt {
   const int *at;
   LSDCD_FN int operator()(std::size_t i) const { return at[i]; }
@@ -243,7 +243,7 @@ struct PackPartners {
       of.first[i] = of.first[j];
       of.count[i] = of.count[j];
     }
-    of.count[j >= 0 ? j : i] = 0;    // there is no grain any more
+    of.count[j >= 0 ? j : i] = 0;    // the grain no longer exists
   }
 };
 

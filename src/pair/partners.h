@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What touching pairs keep, by grain and partner: while the host's list is made anew, and while grains go to other
-// processes or into files.
+// What touching pairs keep, by grain and partner: used while the host's list is made anew, and while grains go to other processes
+// or into files.
 #pragma once
 
 #include "base/vec3.h"
@@ -15,35 +15,36 @@
 
 namespace lsdcd {
 
-// The numbers of a partner: those of the pair, and behind them what tells whether a pair of a new list goes on with them.
+// The numbers of a partner: those of the pair, followed by those that decide whether a pair of a new list continues with them.
 struct PartnerForm {
   int width = 0;    // numbers of the pair
-  // One more: ContactLaw::history_kind() of the law that keeps them; kUnknownLaw: any may have.
+  // One more number: ContactLaw::history_kind() of the law that keeps them. kUnknownLaw: it may be any law.
   bool by_law = false;
-  // Three more: the place of the grain less that of the partner, length, as a grain may touch several images of another, or its
-  // own. All 0: it may have been any image.
+  // Three more numbers: the place of the grain less that of the partner, length, because a grain may touch several images of
+  // another grain, or its own. All 0: it may have been any image.
   bool by_image = false;
   static constexpr Real kUnknownLaw = -1;
 
   LSDCD_FN int stride() const { return image_at() + (by_image ? 3 : 0); }
   LSDCD_FN int image_at() const { return width + (by_law ? 1 : 0); }
 
-  // Are these the numbers of the pair with this offset? Images are further apart than twice `near`, 0: there is one only.
+  // Returns whether these are the numbers of the pair with this offset. Images are more than twice `near` apart; 0: there is only
+  // one image.
   LSDCD_FN bool is_image(const Real *numbers, const Vec3 &offset, Real near) const
   {
     const Real *const at = numbers + image_at();
     const Vec3 was = {at[0], at[1], at[2]};
     return !(near > 0) || norm_sq(was) == 0 || norm_sq(offset - was) < near * near;
   }
-  // May a law of this kind go on with these numbers?
+  // Returns whether a law of this kind may continue with these numbers.
   LSDCD_FN bool is_of_law(const Real *numbers, int kind) const
   {
     return !by_law || numbers[width] == kUnknownLaw || numbers[width] == kind;
   }
 };
 
-// Partners of grain i and numbers for each of them, as grain i sees them. The host may copy, pack, unpack and reset
-// grains. In messages and files a grain has a count, and for each partner its name and its numbers.
+// The partners of grain i, and the numbers of each of them, as grain i sees them. The host may copy, pack, unpack and reset grains.
+// In messages and files a grain has a count, and for each partner its name and its numbers.
 class Partners {
  public:
   using Name = std::int64_t;    // of a grain, the same on all processes
@@ -55,12 +56,12 @@ class Partners {
   const PartnerForm &form() const { return form_; }
   int width() const { return form_.width; }
 
-  void grow(int n_grains);    // keeps what is there; new grains have none
-  // Gives each partner such numbers: those of the pair that were there stay, others are 0 or not known.
+  void grow(int n_grains);    // keeps what is there; new grains have no partners
+  // Sets the form of the numbers of each partner: the numbers of the pair that are there stay, others are 0 or unknown.
   void set_form(const PartnerForm &form);
   void copy(int from, int to) { first_[to] = first_[from], count_[to] = count_[from]; }
   void clear(int i) { count_[i] = 0; }
-  // Takes partners in place of all that is there: those of grain i are first[i], and count[i] - 1 behind it.
+  // Replaces all partners by these: grain i has count[i] partners, beginning with first[i].
   void assign(const PartnerForm &form, std::vector<std::size_t> first, std::vector<int> count,
               std::vector<Name> name, std::vector<Real> numbers)
   {
@@ -76,32 +77,32 @@ class Partners {
   void rename(int i, int k, Name name) { name_[first_[i] + k] = name; }
   const Real *numbers(int i, int k) const { return numbers_.data() + stride_ * (first_[i] + k); }
 
-  // Takes over what the pairs of a list keep, for the first n grains, both of each pair. Of grains: name(i), and of pairs
-  //   flips(i, j)    which numbers change sign where i and j change places, see ContactLaw::flips()
-  //   kind(i, j)     of the law that keeps them, see PartnerForm
-  //   offset(i, j)   of i less that of j
+  // Takes over what the pairs of a list keep, for the first n grains, for both grains of each pair. `grains` has name(i), and for pairs
+  //   flips(i, j)    the numbers that change sign if i and j change places, see ContactLaw::flips()
+  //   kind(i, j)     the kind of the law that keeps them, see PartnerForm
+  //   offset(i, j)   the place of i less that of j
   template <class Grains>
   void collect(const PairList &list, const PairHistory &history, int n, const PartnerForm &form,
                const Grains &grains);
-  // Gives it to the pairs of a new list. Pairs that are not in it any more have parted. Where the law is of another kind, the first
-  // of_law numbers are 0; returns whether any was not. `near`: see PartnerForm::is_image().
+  // Transfers what partners keep to the pairs of a new list. Pairs that are no longer in the list have parted. If the law is of
+  // another kind, the first of_law numbers become 0. Returns whether any of these was not 0. `near`: see PartnerForm::is_image().
   template <class Grains>
   bool hand_out(const PairList &list, PairHistory &history, Real near, int of_law,
                 const Grains &grains) const;
 
   int packed_size(int i) const { return packed_size(i, width()); }
   int pack(int i, Real *to) const { return pack(i, to, width()); }    // returns packed_size(i)
-  // The same with the first `width` numbers of each pair.
+  // Do the same with the first `width` numbers of each pair.
   int packed_size(int i, int width) const
   {
     return 1 + (1 + width + form_.stride() - form_.width) * count_[i];
   }
   int pack(int i, Real *to, int width) const;
   int unpack(int i,
-             const Real *from);    // in place of what it has; returns how many numbers were read
-  int unpack_more(int i, const Real *from);    // beside what it has
+             const Real *from);    // replaces what it has; returns how many numbers were read
+  int unpack_more(int i, const Real *from);    // adds to what it has
   int largest_packed_size() const;             // over all grains
-  // Returns whether `size` numbers are what pack() can have written.
+  // Returns whether pack() can have written these `size` numbers.
   bool is_sound(const Real *from, int size) const;
   std::size_t bytes() const;
 
@@ -116,7 +117,7 @@ class Partners {
   std::vector<Real> numbers_;
 };
 
-// Calls act(i, j, number of the pair in the history) for the pairs of a list that have one.
+// Calls act(i, j, number of the pair in the history) for the pairs of a list that are in the history.
 template <class Act>
 void for_pairs(const PairList &list, const PairHistory &history, const Act &act)
 {
@@ -130,7 +131,7 @@ void for_pairs(const PairList &list, const PairHistory &history, const Act &act)
   }
 }
 
-// Clears the first n numbers of a pair of the history. Returns whether any was not 0.
+// Clears the first n numbers of a pair of the history. Returns whether any of them was not 0.
 inline bool clear_pair(PairHistory &history, std::size_t pair, int n)
 {
   bool any = false;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Kernels of a step of pairs: which of a list touch, and what these do. They run on every backend.
+// Kernels of a step of pairs: they find which pairs of a list touch, and compute these. They run on every backend.
 #pragma once
 
 #include "backend/atomic.h"
@@ -15,43 +15,43 @@
 namespace lsdcd {
 
 constexpr int kWordBits = 32;
-// On a GPU the n-th pairs of so many rows lie side by side, in 32 bytes that are read and written together. The step from a
+// On a GPU the n-th pairs of this many rows lie side by side, in 32 bytes that are read and written together. It is the stride from a
 // row's pair to its next one; 1 on a CPU.
 constexpr unsigned kGpuPairStep = 4;
 
-// Which pairs of a list touch, and where the numbers that they keep are: bit k % 32 of word k / 32 is of place k in the row.
+// Which pairs of a list touch, and where the numbers that they keep are: bit k % 32 of word k / 32 is that of place k in the row.
 struct TouchingPairs {
-  std::uint32_t *words = nullptr;    // word w of row r at [w * rows + r]; null: none touch
-  int *first = nullptr;              // of each row's first pair among all
-  Real *numbers = nullptr;           // the k-th of all pairs are side by side
-  std::size_t room = 0;              // for how many pairs
+  std::uint32_t *words = nullptr;    // word w of row r is at [w * rows + r]; null: none touch
+  int *first = nullptr;              // of each row's first pair among all pairs
+  Real *numbers = nullptr;           // the k-th numbers of all pairs are side by side
+  std::size_t room = 0;              // number of pairs for which there is memory
 
   LSDCD_FN PairNumbers<Real> of(std::size_t pair) const { return {numbers + pair, room}; }
 };
 
 // A step as its kernels see it.
 struct PairStepView : PairInput {
-  int words = 0;    // of a row
+  int words = 0;    // number of words of a row
   TouchingPairs now, old;
   int width = 0;
   unsigned step = 1;    // see kGpuPairStep
   std::uint32_t *n_pairs = nullptr,
-                *n_pairs_next = nullptr;    // where this step counts places, and the next one
+                *n_pairs_next = nullptr;    // count of places of this step, and of the next one
   const LawBytes *laws = nullptr;
   int n_laws = 0;
   const int *law_of = nullptr;
   int n_types = 0;
   const int *kind_of = nullptr;    // laws of one kind have the same compiled law
-  int kind = 0;                    // whose pairs are computed
+  int kind = 0;                    // the kind whose pairs are computed
   const Real *pull_off = nullptr;
   Real *sums = nullptr;     // column k of kPairSums at [k * n_all]; null: not asked for
-  unsigned left_out = 0;    // bit k: factor k is 0
+  unsigned left_out = 0;    // bit k: factor k is 0, and its pairs are left out
   bool alone = false;       // one thread adds forces
 
   LSDCD_FN int law(int i, int j) const { return law_of[type[i] * n_types + type[j]]; }
 };
 
-// Adds to a number that others may add to.
+// Adds to a number to which other threads may add.
 LSDCD_FN void add_shared(Real *at, Real value, [[maybe_unused]] bool alone)
 {
 #if LSDCD_ON_GPU()
@@ -72,11 +72,11 @@ LSDCD_FN void add_shared(const StridedView<Real> &to, int i, const Vec3 &a, bool
   for (int k = 0; k < 3; k++) add_shared(at + k * to.column, a[k], alone);
 }
 
-// How many rows lie side by side.
+// The number of rows that lie side by side.
 template <class W>
 constexpr unsigned kSide = W::kSize == 1 ? 1 : kGpuPairStep;
 
-// Returns how many places rows side by side take, of which this one has `count` pairs. All threads of a warp together.
+// Returns how many places rows side by side take, of which this one has `count` pairs. All threads of a warp call it together.
 template <class W>
 LSDCD_FN unsigned places_side_by_side(const W &warp, unsigned count)
 {
@@ -87,7 +87,7 @@ LSDCD_FN unsigned places_side_by_side(const W &warp, unsigned count)
   return kSide<W> * count;
 }
 
-// Takes places for what a row's `count` pairs keep. All threads of a warp together.
+// Reserves places for what a row's `count` pairs keep. All threads of a warp call it together.
 template <class W>
 LSDCD_FN void take_places(const W &warp, bool mine, std::size_t row, unsigned count,
                           std::uint32_t *n_pairs, int *first)
@@ -100,7 +100,7 @@ LSDCD_FN void take_places(const W &warp, bool mine, std::size_t row, unsigned co
   if (mine) first[row] = static_cast<int>(begin + end - room + warp.rank() % kSide<W>);
 }
 
-// Finds the pairs that touch, and places for what they keep. kBeyond: adhesion may hold pairs beyond contact.
+// Finds the pairs that touch, and reserves places for what they keep. kBeyond: adhesion may hold pairs beyond contact.
 template <bool kBeyond>
 struct FindTouching {
   PairStepView s;
@@ -145,16 +145,16 @@ struct FindTouching {
   }
 };
 
-// A pair: its place in the list of its row, and what it kept a step ago and keeps; null: nothing.
+// A pair: its place in the list of its row, what it kept a step ago, and what it keeps now; null: nothing.
 struct PairOfRow {
   std::size_t row;
-  unsigned owner;    // the thread of the warp that has the row
+  unsigned owner;    // the thread of the warp to which the row belongs
   int place;
   PairNumbers<Real> old, now;
 };
 
-// Calls act(is_pair, pair), all threads of a warp together, for the pairs of the warp's rows that touch, as many at once as the warp has
-// threads. A warp shares them, since most rows have few. kParted: also for those that touched a step ago.
+// Calls act(is_pair, pair), for all threads of a warp together, for the touching pairs of the warp's rows, as many at once as the warp
+// has threads. The threads share them, because most rows have few pairs. kParted: also for pairs that touched a step ago.
 template <bool kParted, class W, class Act>
 LSDCD_FN void for_each_pair(const PairStepView &s, const W &warp, bool mine, std::size_t k,
                             const Act &act)
@@ -194,7 +194,7 @@ LSDCD_FN void for_each_pair(const PairStepView &s, const W &warp, bool mine, std
   }
 }
 
-// Computes the pairs that touch and have laws of the kind. kOne: there is one law, and sums are not asked for.
+// Computes the touching pairs that have laws of this kind. kOne: there is one law, and sums are not asked for.
 template <class Law, bool kOne, bool kFull>
 struct AddPairs {
   static constexpr unsigned kBlocksAtOnce = 4;
@@ -205,7 +205,7 @@ struct AddPairs {
   template <class W>
   LSDCD_FN void operator()(const W &warp, bool mine, std::size_t k) const
   {
-    if (s.width > 0 && *s.n_pairs > s.now.room) return;    // the host comes again
+    if (s.width > 0 && *s.n_pairs > s.now.room) return;    // the host starts it again
     for_each_pair<false>(s, warp, mine, k, [&](bool is_pair, const PairOfRow &pair) {
       Row row = {{0, 0, 0}, {0, 0, 0}, 0};
       int i = 0;
@@ -219,7 +219,7 @@ struct AddPairs {
         is_first = warp.sum_side_by_side(owner, row.force, row.torque, row.heat);
       else
         is_first = warp.sum_side_by_side(owner, row.force, row.torque);
-      if constexpr (kFull) warp.wait();    // until the row's pairs before these are added
+      if constexpr (kFull) warp.wait();    // until the pairs of the row before these are added
       if (!is_pair || !is_first) return;
       if constexpr (kFull) {
         s.force.add(i, row.force);
@@ -250,7 +250,7 @@ struct AddPairs {
       const int of_pair = s.law(i, j);
       if (s.kind_of[of_pair] != s.kind) return;
       law = &s.laws[of_pair].template in_kernel<Law>();
-      for (int n = 0; n < s.width; n++) kept[n] = 0;    // others may keep more
+      for (int n = 0; n < s.width; n++) kept[n] = 0;    // other laws may keep more numbers
     }
     const GrainPair p = grain_pair(s, i, j, s.update);
     PairForce f;
@@ -284,7 +284,7 @@ struct AddPairs {
   }
 };
 
-// Gives the pairs that touch what they kept a step ago: in a setup the limits of friction cut forces, but springs stay as they are.
+// Gives touching pairs what they kept a step ago, in a setup: the limits of friction cut forces there, but springs stay as they are.
 struct KeepNumbers {
   PairStepView s;
 
@@ -324,18 +324,19 @@ PairLawOn<B> compiled_pair(const Law &law)
   return {LawBytes(law), run_pair_law<Law, B>};
 }
 
-// The law that books energy, compiled for a backend.
+// The law that records energy, compiled for a backend.
 template <class B>
 struct PairBookOn {
   LawBytes law;
-  // Adds what the pairs whose laws are of the kind do to sums[k], of so many rows each as threads share their work, and marks those
-  // that have any.
+  // Adds the energy of the pairs whose laws are of this kind to sums[k], where k counts groups of as many rows as threads share, and
+  // marks the groups that have any.
   void (*run)(const PairStepView &, const LawBytes &, EnergyRows *sums, char *is_booked, B &);
 };
 template <class B>
 PairBookOn<B> pair_book_on(const ContactLaw &law);
 
-// The groups of laws that are compiled together, a source file each and for each backend (laws/CMakeLists.txt).
+// Each of the following functions has a group of laws that are compiled together, with a source file for each group and each backend
+// (laws/CMakeLists.txt).
 template <class B>
 PairLawOn<B> granular_pair_on(const ContactLaw &law);
 template <class B>

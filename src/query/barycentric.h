@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The closest point of an answer as shares of the corners of its triangle: one source for the CPU and a GPU.
+// The closest point of an answer as shares of the corners of its triangle. The CPU and a GPU use the same source.
 #pragma once
 
 #include "base/vec3.h"
@@ -16,7 +16,7 @@ LSDCD_FN Real from_0_to_1(Real x)
   return fmin(fmax(x, Real(0)), Real(1));
 }
 
-// The share of b in the point of the segment from a to b that is nearest to p.
+// Returns the share of b in the point of the segment from a to b that is nearest to p.
 LSDCD_FN Real share_of_end(const Vec3 &a, const Vec3 &b, const Vec3 &p)
 {
   const Vec3 along = b - a;
@@ -24,10 +24,10 @@ LSDCD_FN Real share_of_end(const Vec3 &a, const Vec3 &b, const Vec3 &p)
   return length_sq > 0 ? from_0_to_1(dot(along, p - a) / length_sq) : 0;
 }
 
-// Shares of the corners of a triangle with an area in its point p: each from 0 to 1, their sum 1, up to one rounding
-// each. Their point is off by roundings of the triangle's size, also if the triangle is thin: shares are solved for
-// along the longest side, after what is across it, whose rounding they then make up for. If p is past a side by
-// rounding, they are those of that side's nearest point.
+// Returns the shares of the corners of a triangle, which has an area, in its point p: each from 0 to 1, with the sum 1,
+// up to one rounding each. The point that they give is off by roundings of the triangle's size, even if the triangle is
+// thin: shares are solved for along the longest side after the direction across it, and so correct its rounding. If p
+// is past a side by rounding, they are the shares of the nearest point of that side.
 LSDCD_FN Vec3 shares_in_triangle(const Vec3 *corner, const Vec3 &p)
 {
   int a = 0;
@@ -58,15 +58,15 @@ LSDCD_FN Vec3 shares_in_triangle(const Vec3 *corner, const Vec3 &p)
   return share;
 }
 
-// Corners of the triangles of a mesh. Position gives a vertex by its number.
+// The corners of the triangles of a mesh. Position returns the position of a vertex by its number.
 template <class Position>
 struct MeshParts {
   TriangleNames names;
-  const int *face_vertex, *edge_vertex;    // 3 of each face, 2 of each edge
+  const int *face_vertex, *edge_vertex;    // 3 for each face, 2 for each edge
   Position position;
 
-  // Shares of the corners of the triangle that the table names for this feature, in the order of the file; `point`: the
-  // closest one on the feature. No numbers where there is no such triangle.
+  // Returns the shares of the corners of the triangle that the table names for this feature, in the order of the file.
+  // `point`: the closest point on the feature. They are not numbers if there is no such triangle.
   LSDCD_FN Vec3 barycentric(FeatureCode feature, const Vec3 &point) const
   {
     const std::uint32_t triangle = feature == kNoFeature ? kNoTriangle : names.of(feature);
@@ -93,7 +93,7 @@ struct MeshParts {
   }
 };
 
-// > 0 outside. No number where the side is not known; distance 0 has no sign.
+// Returns the signed distance, > 0 outside. Not a number if the side is not known; a distance of 0 has no sign.
 LSDCD_FN Real signed_distance(Real distance, std::int8_t side)
 {
   if (side == 0) return NAN;

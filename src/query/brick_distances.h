@@ -12,9 +12,9 @@ namespace lsdcd {
 // Position of a point over a face: too far from its plane, past a side, within the tolerance of a side, or inside.
 enum class FaceRegion { far, outside, rim, inside };
 
-// The tests of closest_point.h on records whose coordinates are small: p is the point in the frame of its brick. A
-// primitive has a distance if the wall has a local minimum of distance on it: past a shared side it is the neighbour
-// that has one.
+// The tests of closest_point.h, on records with small coordinates: p is the point in the frame of its brick. A primitive
+// has a distance if the wall has a local minimum of distance on it: past a side that two faces share, the neighbour has
+// it.
 class BrickDistances {
  public:
   static constexpr bool kFloats = true;
@@ -127,7 +127,7 @@ class BrickDistances {
 
   LSDCD_FN static Real distance_of(float distance, float within)
   {
-    constexpr float kOnWall = 1e-18f;    // squares leave the range of float below
+    constexpr float kOnWall = 1e-18f;    // below this, squares leave the range of float
     if (!(distance <= within)) return kAnyDistance;
     return distance > kOnWall ? distance : 0;
   }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A query on the CPU in blocks of spheres: first it finds those that may be in a brick, then their
-// cells, then their lists, and last the answers. Each loop prefetches what the next one reads, so that
-// no sphere waits for the memory of another.
+// A query on the CPU, in blocks of spheres. It first finds the spheres that may be in a brick, then
+// their cells, then their lists, and last the answers. Each loop prefetches what the next one reads,
+// so that no sphere waits for the memory of another.
 #pragma once
 
 #include "grid/lookup/brick_words.h"
@@ -31,7 +31,7 @@ struct CellQueryCpu {
   struct InCell {
     S s;
     std::size_t sphere;
-    std::uint32_t index, cell;    // the cell's number in its brick, then in lists.cells
+    std::uint32_t index, cell;    // cell: its number in its brick, then in lists.cells
   };
 
   template <class Work>

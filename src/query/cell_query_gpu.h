@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A query whose kernels have one kind of work each. The first is light, with many threads and more than one
-// sphere in flight in each: it answers every sphere as if the wall were far, and lists those that are near
-// to it with what a search reads first. A kernel searches cells of one entry, and another one cells of
-// more, both with full warps whatever the order of the spheres in memory. The last kernel searches long
-// lists, each by a warp.
+// A query on a GPU whose kernels each have one kind of work. The first kernel is light, with many threads and more
+// than one sphere in flight in each. It answers every sphere as if the wall were far away, and lists the spheres
+// that are near it, with the data that a search reads first. The second kernel searches cells of one entry, and the
+// third cells of more entries, both with full warps for any order of the spheres in memory. The last kernel
+// searches long lists, each by a warp.
 #pragma once
 
 #include "backend/backend.h"
@@ -18,13 +18,12 @@
 
 namespace lsdcd {
 
-// Blocks at once on a processor: 64 registers a thread for one entry, 80 for
-// more.
+// Blocks at once on a processor: they leave 64 registers to a thread for one entry, and 80 for more.
 constexpr unsigned kSearchBlock = 256, kSinglesBlocks = 4, kListsBlocks = 3;
 
-// The order in which a block walks the lists: kSearchBlock spheres of one list, then of the next. Lists grow in
-// parallel, so that neighbours in memory are searched in the same turn. `n`: the length of the list whose number is
-// this thread's rank.
+// The order in which a block takes the lists: kSearchBlock spheres of one list, then of the next. Lists grow in
+// parallel, so that neighbours in memory are searched at about the same time. `n`: the length of the list whose
+// number is this thread's rank.
 class ListTurns {
  public:
   LSDCD_GPU_FN explicit ListTurns(unsigned n) : n_(n), longest_(GpuWarp::largest(n)) {}
@@ -41,7 +40,8 @@ class ListTurns {
     }
   }
 
-  // Lists differ in length. With an odd number of blocks each takes from all, in another order.
+  // Returns an odd number of blocks. Lists differ in length, and with an odd number each block takes from all
+  // lists, in another order.
   static unsigned blocks(unsigned most) { return (most - 1) | 1; }
 
  private:
@@ -69,9 +69,9 @@ struct SearchSingles {
   }
 };
 
-// Answers those with more entries. It lists at most `max_long` of those with long lists again. It
-// also clears the counts of the next run. It can run beside the kernel before it, which has waited for
-// the lists.
+// Answers the listed spheres whose cell has more entries. It lists at most `max_long` of those with long lists
+// again. It also clears the counts of the next run. It can run at the same time as the kernel before it, which has
+// waited for the lists.
 template <class Work>
 struct SearchLists {
   static constexpr unsigned kThreads = kSearchBlock, kBlocksAtOnce = kListsBlocks;
@@ -101,12 +101,12 @@ struct SearchLists {
           }
           work.search_list(in_cell.sphere, in_cell.s, in_cell.cell);
         });
-    // A kernel that waits for this one thus waits for that one, too.
+    // A kernel that waits for this one therefore also waits for the one before.
     block.wait_for_last();
   }
 };
 
-// A warp for each sphere with a long list.
+// Answers the spheres with long lists, each by a warp.
 template <class Work>
 struct SearchLongLists {
   static constexpr unsigned kThreads = kSearchBlock, kBlocksAtOnce = 1;
@@ -133,7 +133,8 @@ class CellQuery {
   using Array = typename B::template Array<T>;
 
  public:
-  // Room for the worst case, all spheres of a run are in occupied cells: 32 bytes for each in float, 48 in double.
+  // Reserves memory for the worst case, in which all spheres of a run are in occupied cells: 32 bytes for each in
+  // float, 48 in double.
   template <class S>
   void reserve(std::size_t n)
   {
@@ -171,9 +172,9 @@ class CellQuery {
   }
 
  private:
-  static constexpr std::size_t kRun = std::size_t(1) << 24;    // spheres of a turn of kernels
+  static constexpr std::size_t kRun = std::size_t(1) << 24;    // spheres of one round of kernels
 
-  // So many long lists at most are read by warps, and any more by threads.
+  // At most this many long lists are searched by warps; more are searched by threads.
   static constexpr unsigned kMaxLong = 1 << 16;
 
   template <class S>
@@ -181,7 +182,7 @@ class CellQuery {
   {
     return static_cast<unsigned>((n + kFindTile<S> - 1) / kFindTile<S>);
   }
-  // For all of its blocks' spheres in a list.
+  // Returns how many spheres a list must have space for: all of the spheres of its blocks.
   template <class S>
   static std::size_t room(std::size_t n)
   {
@@ -194,7 +195,7 @@ class CellQuery {
 
   typename B::Limits limits_;
   Array<char> list_, long_list_;      // of CellSphere
-  Array<CellSphereCounts> counts_;    // of this run and of the next
+  Array<CellSphereCounts> counts_;    // of this run and of the next one
   int turn_ = 0;
 };
 

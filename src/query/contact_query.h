@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All contacts of spheres with a wall, with the weights of the corner rule. On the CPU.
+// Finds all contacts of spheres with a wall, with the weights of the corner rule, on the CPU.
 #pragma once
 
 #include "base/strided_view.h"
@@ -17,7 +17,7 @@ template <class T>
 struct SphereView {
   std::size_t from = 0, n = 0;    // the first one in the arrays, and how many
   StridedView<const T> centres;
-  Column<const T> radii;    // null: `radius` is that of all
+  Column<const T> radii;    // null: all spheres have `radius`
   Real radius = 0;
 };
 
@@ -28,14 +28,15 @@ struct SphereContact {
   Real weight;               // share of the force, 0 to 1
 };
 
-// Sphere `from` + i has found[first[i]] to found[first[i + 1] - 1], in the order of their features.
+// The contacts of sphere `from` + i are found[first[i]] to found[first[i + 1] - 1], in the order of their
+// features.
 struct SphereContacts {
   std::vector<std::size_t> first;
   std::vector<SphereContact> found;
 };
 
-// It uses threads() threads. The lists must be complete. Throws InputError if a radius in `radii` exceeds
-// the cutoff, or where a sphere has more contacts than the corner rule takes.
+// Finds the contacts with threads() threads. The lists must be complete. Throws InputError if a radius in
+// `radii` exceeds the cutoff, or if a sphere has more contacts than the corner rule can take.
 template <class T>
 SphereContacts find_all_contacts(const GridView &grid, const SphereView<T> &spheres);
 

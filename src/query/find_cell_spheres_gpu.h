@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The first kernel of a query on a GPU: it answers every sphere as if the wall were far,
-// and lists those in occupied cells.
+// The first kernel of a query on a GPU: it answers every sphere as if the wall were far away, and lists the
+// spheres in occupied cells.
 #pragma once
 
 #include "backend/atomic.h"
@@ -23,34 +23,34 @@ struct alignas(16) CellSphere {
   std::uint32_t sphere, pad;
 };
 
-// For the first kernel: threads in a block, blocks at once on a processor (32 registers a thread),
-// and bytes of spheres that each thread loads at once.
+// For the first kernel: threads in a block, blocks at once on a processor (32 registers a thread), and bytes
+// of spheres that each thread loads at once.
 constexpr unsigned kFindBlock = 256, kFindBlocks = 8, kFindBytes = 64;
 template <class S>
 constexpr unsigned kFindEach = kFindBytes / sizeof(S);
 template <class S>
 constexpr unsigned kFindTile = kFindBlock *kFindEach<S>;
 
-// Spheres are in as many lists as a warp has threads: a list has every so many-th block's, and they
-// count in as many indices. A list grows from its front by those whose cell has one entry, and
-// from its back by those with more.
+// There are as many lists of spheres as a warp has threads. Block k writes to list k modulo that number, and
+// each list has a count of its own. A list grows from its front by spheres whose cell has one entry, and from
+// its back by those with more entries.
 constexpr unsigned kSphereLists = kWarpSize;
 struct CellSphereCounts {
   struct alignas(128) OfList {
-    unsigned long long n;    // one entry: low word; more: high word
+    unsigned long long n;    // low word: one entry; high word: more entries
   } list[kSphereLists];
-  unsigned with_long;    // of those with more, how many have long lists
+  unsigned with_long;    // how many of the spheres with more entries have long lists
 };
 template <class S>
 struct CellSphereLists {
   CellSphere<S> *first;
-  unsigned room;    // of a list
+  unsigned room;    // length of a list
   CellSphereCounts *counts;
 
   LSDCD_GPU_FN CellSphere<S> *list(unsigned l) const { return first + std::size_t(l) * room; }
 };
 
-// Answers n spheres as if all were far, and lists those that are not.
+// Answers n spheres as if all were far away, and lists those that are not.
 template <class Work>
 struct FindCellSpheres {
   static constexpr unsigned kThreads = kFindBlock, kBlocksAtOnce = kFindBlocks;
@@ -87,7 +87,7 @@ struct FindCellSpheres {
     block.wait();
     wait_for_copies();    // this thread's own
 
-    // word[k]: the table's word of sphere k. bit: 5 bits for each sphere, the number of its bit in that
+    // word[k]: the word of the table for sphere k. bit: 5 bits for each sphere, the number of its bit in that
     // word. A sphere whose brick is not certain has all bits set.
     static_assert(5 * kEach <= 32, "in one number");
     std::uint32_t bit = 0, word[kEach];
@@ -125,7 +125,7 @@ struct FindCellSpheres {
         for (unsigned i = four; i < n_tile; i++) work.far(tile + i);
     block.wait();
 
-    // Few may be in a brick. They are tested in full warps, nearly always in one turn.
+    // Only few may be in a brick. They are tested in full warps, nearly always in one round.
     const unsigned mine = block.number() % kSphereLists, n_turns = n_maybe;
     for (unsigned first = block.warp() * kWarpSize; first < n_turns; first += kFindBlock) {
       const unsigned m = first + warp.rank();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The work for each sphere of a query for distances alone, on a GPU.
+// The work for each sphere of a query that asks only for distances, on a GPU.
 #pragma once
 
 #include "backend/atomic.h"
@@ -12,7 +12,8 @@
 
 namespace lsdcd {
 
-// Arrays of one query; without `distance` it is not asked for. Distances are infinite if no wall is within the radius.
+// The arrays of a query. If `distance` is null, it is not asked for. Distances are infinite if no wall is within the
+// radius.
 template <class T>
 struct DistanceArrays {
   std::uint8_t *status;
@@ -31,7 +32,7 @@ struct DistanceArrays {
     four_at(status, i) = {{kCertified, kCertified, kCertified, kCertified}};
     if (distance) four_at(distance, i) = {{kFar, kFar, kFar, kFar}};
   }
-  // For the spheres from the n-th on, a multiple of 4.
+  // Returns the arrays from the n-th sphere on, a multiple of 4.
   DistanceArrays after(std::size_t n) const
   {
     return {status + n, distance ? distance + n : nullptr};
@@ -50,13 +51,12 @@ struct DistanceArrays {
   }
 };
 
-// The first sphere with a radius above the grid's cutoff, below 0, or not a number.
-// Radii are compared in the type of the spheres: for float the cutoff is rounded
-// to float.
+// Finds the first sphere with a radius above the grid's cutoff, below 0, or not a number. Radii are compared in the
+// type of the spheres: for float the cutoff is rounded to float.
 template <class S>
 struct TooLarge {
   decltype(S::r) cutoff;
-  std::uint64_t *first;    // ~ of its index, the largest of all; 0: none
+  std::uint64_t *first;    // ~ of its index, the largest of all; 0: there is none
 
   LSDCD_FN bool is(const S &s) const { return !(s.r >= 0 && s.r <= cutoff); }
   LSDCD_FN void note(std::size_t i, const S &s) const
@@ -65,8 +65,8 @@ struct TooLarge {
   }
 };
 
-// The work for each sphere, which kernels do in turn: may it be in a brick, its cell, and the search of the list of
-// that cell. Without a cell the answer is that of a sphere far from the wall.
+// The work for each sphere, which kernels do in this order: find out whether it may be in a brick, find its cell, and
+// search the list of that cell. Without a cell the answer is that of a sphere far from the wall.
 template <class Search, class S>
 struct GridWork {
   using Item = S;
@@ -80,9 +80,9 @@ struct GridWork {
   Filter filter;
   CoarseTable coarse;
   TooLarge<S> too_large;
-  std::size_t from;    // spheres before these
+  std::size_t from;    // number of spheres before these
 
-  // Returns this work for the spheres from the n-th on, a multiple of 4.
+  // Returns this work from the n-th sphere on, a multiple of 4.
   GridWork after(std::size_t n) const
   {
     return {grid, table, spheres + n, out.after(n), filter, coarse, too_large, from + n};
@@ -90,14 +90,14 @@ struct GridWork {
 
   LSDCD_FN void check(std::size_t i, const S &s) const { too_large.note(from + i, s); }
 
-  // A sphere that is too large passes this test, so that the next test checks it.
+  // Guesses the brick. A sphere that is too large passes this test, so that the next test checks it.
   LSDCD_FN BrickGuess guess(const S &s) const
   {
     BrickGuess at = filter.guess({s.x, s.y, s.z});
     at.unsure |= too_large.is(s);
     return at;
   }
-  // kNoCell where there are no entries.
+  // Returns the cell of the sphere; kNoCell if it has no entries.
   LSDCD_FN std::uint32_t cell(const S &s) const { return occupied_cell(grid, table, s.centre()); }
   LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
   LSDCD_FN void far(std::size_t i) const { out.store(i, far_answer()); }
@@ -108,7 +108,7 @@ struct GridWork {
     out.store(i, nearest_from<Search>(grid, q, s.r, address_inside(grid, q), cell));
   }
 
-  // Is a list too long for one thread, as at a vertex of very many facets?
+  // Can a list be too long for one thread, as at a vertex of very many facets?
   static constexpr bool kHasLong = Search::kComplete;
   static constexpr std::uint32_t kLongForOne = 32;
   LSDCD_FN bool is_long(const Cell &cell) const { return kHasLong && cell.count > kLongForOne; }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The distance from one sphere to the wall, and whether it is certified.
+// Finds the distance from one sphere to the wall, and whether it is certified.
 #pragma once
 
 #include "geometry/primitive_distance.h"
@@ -12,9 +12,9 @@
 namespace lsdcd {
 
 // Distances to the entries of a list: to a primitive of the wall in lists of the N nearest, to a feature in complete
-// ones. Each returns kAnyDistance if there is nothing nearer than `within`.
+// lists. Each function returns kAnyDistance if nothing is nearer than `within`.
 
-// By the wall's own records, in double. Primitives are whole triangles, as in the paper.
+// Distances by the wall's own records, in double. Primitives are whole triangles, as in the paper.
 class MeshDistances {
  public:
   static constexpr bool kFloats = false;
@@ -46,7 +46,7 @@ struct ListSearch {
   static constexpr bool kComplete = kAll;
 };
 
-// Calls run(search) with the ListSearch that the grid's lists and records ask for.
+// Calls run(search) with the ListSearch that the grid's lists and records need.
 template <class Run>
 void with_list_search(const GridView &grid, const Run &run)
 {
@@ -64,7 +64,7 @@ void with_list_search(const GridView &grid, const Run &run)
 struct Answer {
   Real distance;     // from the centre to the wall; kAnyDistance: not within the radius
   bool certified;    // nothing that the list leaves out can be nearer, or touch
-  // The code in the list of what is nearest, and whether that is a primitive; not set by
+  // The code in the list of the nearest feature or primitive, and whether it is a primitive; not set by
   // nearest_in_warp().
   FeatureCode feature = kNoFeature;
   bool primitive = false;
@@ -86,22 +86,21 @@ LSDCD_FN Answer far_answer()
   return {kAnyDistance, true};
 }
 
-// The first in the list is found of features at the same distance.
+// Of features at the same distance the first one in the list is found.
 struct FirstOfEqual {
   static constexpr bool kOrders = false;
 };
 
 // Tries the entries of a cell's list, the nearest first, as long as they can change the answer: the detection of
-// function (2) of the paper.
-// `limit`: how many are tried; one more is only a bound. Before decides between features at the same
-// distance: before(a, b) says by their codes whether a is found, not b.
+// function (2) of the paper. `limit`: how many are tried; one more is only a bound. Before decides between features at
+// the same distance: before(a, b) returns, by their codes, whether a is found instead of b.
 template <bool kPrimitives, class Distances, class Before>
 LSDCD_FN Answer nearest_in_cell(const GridView &grid, const Vec3 &q, Real radius,
                                 std::uint32_t limit, const CellAddress &at, const Cell &cell,
                                 const Before &before)
 {
   const Distances distances(grid, q, at);
-  // Nothing farther than the nearest so far is needed.
+  // Nothing farther than the nearest one so far is needed.
   Real nearest = radius;
   FeatureCode found = kNoFeature;
   const auto attempt = [&](FeatureCode code) {
@@ -120,14 +119,14 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const Vec3 &q, Real radius
   // A single entry is in the cell itself, and there is no list to stop in.
   const bool single = cell.count == 1;
   const Real off_centre = single ? 0 : norm(at.from_centre);
-  // The next entry is loaded before this one is tried, which waits for other memory.
+  // The next entry is loaded before this one is tried, because that waits for other memory.
   CellEntry next = {cell.first, 0};
   if (!single) next = grid.lists.entries[cell.first];
   for (std::uint32_t k = 0; k < cell.count; k++) {
     const CellEntry entry = next;
     if (!single) {
       if (k + 1 < cell.count) next = grid.lists.entries[cell.first + k + 1];
-      // No entry of the list from here on is nearer than this bound.
+      // No entry from here on is nearer than this bound.
       const bool past = entry.bound > nearest + off_centre;
       if (k == limit || past) return answer(past);
     }
@@ -136,17 +135,17 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const Vec3 &q, Real radius
   return answer(true);
 }
 
-// Returns the nearer of two distances, or the first: 0 and -0 are equal, and not the same bits.
+// Returns the nearer of two distances, or the first if they are equal: 0 and -0 are equal, but do not have the same
+// bits.
 LSDCD_FN Real nearer(Real first, Real second)
 {
   return second < first ? second : first;
 }
 
-// Finds the nearest distance from a complete list by the lanes of a warp, which call it with the same arguments and get
-// the same answer.
-// Each lane tries one entry, and its search radius is the nearest distance before this turn. The nearest distance that
-// one thread would have had before an entry comes from the lanes below, so that the search ends at the same entry as
-// with one thread.
+// Finds the nearest distance from a complete list with the lanes of a warp, which call it with the same arguments and
+// get the same answer. Each lane tries one entry, and its search radius is the nearest distance before this round. The
+// nearest distance that a single thread would have had before an entry comes from the lower lanes, so that the search
+// ends at the same entry as with one thread.
 template <class Distances, class Threads>
 LSDCD_FN Answer nearest_in_warp(const GridView &grid, const Vec3 &q, Real radius,
                                 const CellAddress &at, const Cell &cell, const Threads &warp)
@@ -184,7 +183,7 @@ LSDCD_FN Answer nearest_in_warp(const GridView &grid, const Vec3 &q, Real radius
 constexpr std::uint32_t kWholeList = 0xffffffffu;
 
 // Returns the nearest point of the wall within `radius` (length, at most grid.cutoff) of q, which lies at `at`, in the
-// cell `cell` of grid.lists. Certified answers are exact, but for the rounding of Search::Distances.
+// cell `cell` of grid.lists. Certified answers are exact, except for the rounding of Search::Distances.
 template <class Search, class Before = FirstOfEqual>
 LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
                              const CellAddress &at, const Cell &cell, const Before &before = {})
@@ -195,7 +194,7 @@ LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
   return nearest_in_cell<true, Distances>(grid, q, radius, grid.list_kind.most(), at, cell, before);
 }
 
-// The same for any q.
+// Does the same for any q.
 template <class Search, class Before = FirstOfEqual>
 LSDCD_FN Answer nearest_distance(const GridView &grid, const Vec3 &q, Real radius,
                                  const Before &before = {})

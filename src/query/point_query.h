@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Distance, closest point, triangle and side of points against a wall, in the caller's own arrays.
+// Finds distance, closest point, triangle and side of points relative to a wall, in the caller's own arrays.
 #pragma once
 
 #include "grid/lookup/brick_words.h"
@@ -15,14 +15,14 @@ namespace lsdcd {
 
 class TriangleTree;
 
-// A grid on the CPU, borrowed, with its brick table as bits.
+// A borrowed grid on the CPU, with its brick table as bits.
 struct CpuGrid {
   ViewOf<QueryGrid> view{GridView()};
   std::vector<BrickWord> words;
   BrickTable table;
 
   CpuGrid() = default;
-  CpuGrid(CpuGrid &&) = default;    // does not move the words
+  CpuGrid(CpuGrid &&) = default;    // the words stay in place
   CpuGrid &operator=(CpuGrid &&) = default;
   explicit CpuGrid(const ViewOf<QueryGrid> &grid) :
       view(grid), words(brick_words(grid)), table(words, words.data())
@@ -30,14 +30,14 @@ struct CpuGrid {
   }
 };
 
-// It computes on the CPU, with threads() threads. It has no state, so that any number of threads may call it at
-// once. Throws InputError if a radius in `radii` exceeds the grid's cutoff; the answers are then
+// Computes on the CPU, with threads() threads. There is no state, so that any number of threads may call it at
+// the same time. Throws InputError if a radius in `radii` exceeds the grid's cutoff; the answers are then
 // undefined. T: float or double.
 template <class T>
 void query_grid(const CpuGrid &grid, const TriangleTable &names, const PointArrays<T> &io);
 
 // A query on a stream (cudaStream_t), for arrays that its device can read. It does not wait for the stream,
-// unless `radii` have to be checked. Only one thread may use it at a time.
+// unless `radii` have to be checked. Only one thread at a time may use it.
 class StreamQuery {
  public:
   virtual ~StreamQuery() = default;
@@ -52,12 +52,13 @@ std::string current_cuda_name();
 class DeviceCopy : public std::enable_shared_from_this<DeviceCopy> {
  public:
   virtual ~DeviceCopy() = default;
-  // Returns a query on a stream of that device, null: the default one. It shares this copy.
+  // Returns a query on a stream of that device; null: the default stream. The query shares this copy.
   virtual std::unique_ptr<StreamQuery> query_on(void *stream) const = 0;
 
   const int device = current_cuda_device();
 };
-// Cells with lists, which answer up to their cutoff, or a tree, which answers at any range.
+// Copies cells with lists, which answer up to their cutoff, or a tree, which answers at any distance, to the
+// current device.
 std::shared_ptr<const DeviceCopy> copy_to_cuda(const ViewOf<QueryGrid> &grid,
                                                const TriangleTable &names);
 std::shared_ptr<const DeviceCopy> copy_to_cuda(const TriangleTree &tree);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sides of points, by the nearest feature's normal or by winding numbers.
+// Finds sides of points, by the normal of the nearest feature or by winding numbers.
 #pragma once
 
 #include "base/made_once.h"
@@ -14,7 +14,8 @@
 
 namespace lsdcd {
 
-// The winding numbers of a mesh, borrowed, made when a point needs them. Any number of threads may ask.
+// The winding numbers of a mesh, which is borrowed. They are made when a point needs them. Any number of
+// threads may ask for them.
 class PointSides {
  public:
   explicit PointSides(const WeldedMesh &mesh) : mesh_(mesh) {}
@@ -36,9 +37,9 @@ class PointSides {
 
 // T is float or double.
 
-// query_grid(), and the sides of all points. `by_normals`: the grid has sides, which nearest features
-// give where one is found. All other sides are those of winding numbers, at any distance. The mesh must have an
-// inside where sides are asked for.
+// Does the work of query_grid(), and finds the sides of all points. `by_normals`: the grid has sides, which
+// nearest features give if one is found. All other sides are those of winding numbers, at any distance. The
+// mesh must have an inside if sides are asked for.
 template <class T>
 void query_with_sides(const CpuGrid &grid, const TriangleTable &names, const PointSides &sides,
                       bool by_normals, const PointArrays<T> &io);
@@ -48,14 +49,14 @@ template <class T>
 void query_with_sides(const TriangleTree &tree, const CutoffBoxes *boxes, const PointSides &sides,
                       Real cutoff, const PointArrays<T> &io);
 
-// Generalised winding numbers of any mesh, and the sides that are probable by them, which are not certified:
-// `status` gets kSideEstimated. Null arrays are not asked for. If a coordinate is no number, neither is the
-// winding number, and the side is 0.
+// Finds the generalised winding numbers of any mesh, and the sides that are probable by them, which are not
+// certified: `status` gets kSideEstimated. Null arrays are not asked for. If a coordinate is not a number,
+// neither is the winding number, and the side is 0.
 template <class T>
 void estimate_sides(const PointSides &sides, std::size_t n, const StridedView<const T> &points,
                     const Column<T> &number, std::int8_t *side, std::uint8_t *status);
 
-// Sides by winding numbers of points whose `side` is 0; it stays 0 where a coordinate is no number.
+// Finds the sides, by winding numbers, of points whose `side` is 0; it stays 0 if a coordinate is not a number.
 template <class T>
 void fill_sides(const PointSides &sides, std::size_t n, const StridedView<const T> &points,
                 std::int8_t *side);

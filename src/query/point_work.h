@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The work for each point of a query that asks for more than a distance, with arrays of any layout: one
-// source for all backends.
+// The work for each point of a query that asks for more than a distance, with arrays of any layout. All
+// backends share this source.
 #pragma once
 
 #include "contact/find_contacts.h"
@@ -15,15 +15,15 @@
 
 namespace lsdcd {
 
-// Points and answers of a query, borrowed, in memory of the backend that answers. Arrays that are null
-// are not wanted. T: float or double.
+// The points and answers of a query, borrowed, in memory of the backend that answers. Null arrays are not asked
+// for. T: float or double.
 template <class T>
 struct PointArrays {
   std::size_t n = 0;
   StridedView<const T> points;
-  Column<const T> radii;    // null: `radius` is that of all
-  Real radius = 0;          // nothing farther is looked for
-  Column<T> distance;       // infinite where there is nothing
+  Column<const T> radii;    // null: all points have `radius`
+  Real radius = 0;          // nothing farther away is searched for
+  Column<T> distance;       // infinite if nothing is found
   Column<T> signed_distance;
   StridedView<T> closest, normal, barycentric;
   std::uint32_t *triangle = nullptr, *feature = nullptr;
@@ -35,7 +35,7 @@ struct PointArrays {
     return !signed_distance.at && !closest.at && !normal.at && !barycentric.at && !triangle &&
            !feature && !side;
   }
-  // Writes what is asked for of the nearest point; `found` is kNoFeature where there is none. Parts: MeshParts.
+  // Writes what is asked for of the nearest point. `found` is kNoFeature if there is none. Parts: MeshParts.
   template <class Parts>
   LSDCD_FN void store(std::size_t i, FeatureCode found, const Vec3 &at, const Vec3 &along,
                       const Parts &parts) const
@@ -54,11 +54,11 @@ struct PointArrays {
   }
 };
 
-// The feature of the wall that an answer found, and its closest point to q; in double even if it was
-// found in float.
+// The feature of the wall that an answer found, and its closest point to q; in double even if it was found in
+// float.
 struct Nearest {
   FeatureCode feature;
-  Vec3 point, normal;    // the second unit, point -> q; a fixed one where q is on the wall
+  Vec3 point, normal;    // normal: unit, point -> q; a fixed one if q is on the wall
 };
 
 LSDCD_FN Nearest at_closest(FeatureCode feature, const Vec3 &q, const ClosestPoint &closest)
@@ -78,7 +78,7 @@ LSDCD_FN FeatureCode feature_of_wall(const GridView &grid, FeatureCode listed)
   return feature_code(kind, of[feature_index(listed)]);
 }
 
-// The order of features at the same distance: the one with the lowest triangle is found, then the lowest code,
+// Orders features at the same distance: the one with the lowest triangle is found, then the lowest code,
 // because the lists of two cells have them in different orders.
 template <bool kFloats>
 struct LowestTriangle {
@@ -100,7 +100,7 @@ LSDCD_FN Nearest nearest_of(const GridView &grid, const Answer &a, const Vec3 &q
 {
   FeatureCode feature = feature_of_wall<kFloats>(grid, a.feature);
   ClosestPoint closest = closest_point_on(grid.wall, feature, q, grid.tolerance);
-  // A triangle of nearest lists stands for its edges and vertices as well.
+  // A triangle of nearest lists also stands for its edges and vertices.
   if (a.primitive && feature_kind(feature) == FeatureKind::face) {
     const FaceParts &parts = grid.wall.face_parts[feature_index(feature)];
     for (FeatureCode part : parts.part) {
@@ -112,7 +112,7 @@ LSDCD_FN Nearest nearest_of(const GridView &grid, const Answer &a, const Vec3 &q
     }
   }
   if (closest.found) return at_closest(feature, q, closest);
-  // It is no local minimum of distance: a neighbour outside the list is nearer, or float has rounded.
+  // It is not a local minimum of distance: a neighbour outside the list is nearer, or float has rounded.
   Vec3 point;
   switch (feature_kind(feature)) {
     case FeatureKind::face:
@@ -133,8 +133,8 @@ LSDCD_FN Nearest nearest_of(const GridView &grid, const Answer &a, const Vec3 &q
   return {feature, point, any_perpendicular({0, 0, 0})};
 }
 
-// For a closed wall: 1 outside and on the wall, -1 inside, 0 if that is not known. The remains of a facet
-// without area have no outward direction.
+// Returns the side relative to a closed wall: 1 outside and on the wall, -1 inside, 0 if it is not known. The
+// edges and vertices that remain of a facet without area have no outward direction.
 LSDCD_FN std::int8_t side_of(const GridView &grid, const Answer &a, const Vec3 &q,
                              const Nearest &nearest)
 {
@@ -145,7 +145,8 @@ LSDCD_FN std::int8_t side_of(const GridView &grid, const Answer &a, const Vec3 &
   return grid.outside * dot(out, nearest.normal) < 0 ? -1 : 1;
 }
 
-// It has the functions of GridWork, so that the same loops run it. `table` is for loops that use cells.
+// Does the work for each point. It has the functions of GridWork, so that the same loops run it. `table` is for
+// loops that use cells.
 template <class Search, class T>
 struct PointWork {
   using Item = SphereOf<T>;
@@ -214,7 +215,7 @@ struct PointWork {
   }
 };
 
-// Calls run(work) with the work that the grid's lists and records ask for.
+// Calls run(work) with the work that the grid's lists and records need.
 template <class T, class Run>
 void with_point_work(const GridView &grid, const BrickTable &table, const PointArrays<T> &io,
                      const TriangleNames &names, std::uint64_t *too_large, const Run &run)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The check of a query's radii where a backend computes.
+// Checks a query's radii in the memory of a backend.
 #pragma once
 
 #include "backend/backend.h"
@@ -13,7 +13,7 @@ namespace lsdcd {
 template <class B>
 class RadiusCheck {
  public:
-  // `cutoff`: the largest radius.
+  // `cutoff`: the largest radius that is allowed.
   explicit RadiusCheck(Real cutoff) : cutoff_(cutoff), first_(1) {}
 
   // Returns the check that the kernels of the next query make.
@@ -24,7 +24,7 @@ class RadiusCheck {
     put_one(b, first, 0);
     return {static_cast<decltype(S::r)>(cutoff_), first};
   }
-  // Waits where a query has radii, and throws InputError where one is bad.
+  // Waits if a query has radii, and throws InputError if one of them is bad.
   template <class T>
   void end(B &b, const PointArrays<T> &io)
   {

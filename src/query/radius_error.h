@@ -15,12 +15,12 @@ namespace lsdcd {
 struct RadiusError : InputError {
   using InputError::InputError;
 };
-// Below 0, or not a number.
+// The error for a radius below 0, or not a number.
 struct NegativeRadiusError : InputError {
   using InputError::InputError;
 };
 
-// `of`: what it is to the caller.
+// Throws the error. `of`: the caller's name for the object with the radius.
 [[noreturn]] inline void throw_bad_radius(const char *of, std::size_t i, Real radius, Real cutoff)
 {
   char text[200];

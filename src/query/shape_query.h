@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Contacts and signed distances of ellipsoids and superellipsoids at a mesh, on the CPU. Contacts are the local minima of the
-// signed distance from the grain over the surface, which do not depend on how it is cut into triangles.
+// Finds contacts and signed distances of ellipsoids and superellipsoids at a mesh, on the CPU. Contacts are the local minima
+// over the surface of the signed distance from the grain; they do not depend on how the surface is cut into triangles.
 #pragma once
 
 #include "contact/shape_search.h"
@@ -19,18 +19,19 @@ struct ShapesGiven {
   const Real *quaternions;        // w i j k each, of any length above 0; null: not turned
   const Real *half_axes;          // 3 each
   const Real *exponents;          // n1 and n2 each; null: 2
-  bool all_alike;                 // half_axes and exponents are those of all grains
+  bool all_alike;                 // all grains have the first half_axes and exponents
 };
 
-// Grain `from` + i has found[first[i]] to found[first[i + 1] - 1], in the order of their features.
+// The contacts of grain `from` + i are found[first[i]] to found[first[i + 1] - 1], in the order of their features.
 struct ShapeContacts {
   std::vector<std::size_t> first;
   std::vector<ShapeContact> found;
 };
 
-// Both use threads() threads, and throw InputError for numbers of a grain that make no shape.
+// Both functions use threads() threads, and throw InputError for a grain whose numbers make no shape.
 ShapeContacts find_shape_contacts(const TriangleTree &tree, const ShapesGiven &grains);
-// Writes the nearest place of the mesh for each grain. A grain whose centre is no number is far from everything.
+// Writes the nearest place of the mesh for each grain. A grain whose centre is not a number is infinitely far from
+// everything.
 void find_shape_distances(const TriangleTree &tree, const ShapesGiven &grains,
                           ShapeContact *nearest);
 

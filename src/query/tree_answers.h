@@ -16,7 +16,7 @@ struct TreeAnswers {
   TooLarge<SphereOf<T>> too_large;
   bool only_distance;
 
-  // The radius of a point that is brought `times` nearer.
+  // Returns the radius of a point that was scaled to be `times` nearer.
   LSDCD_FN Real radius(std::size_t i, Real times) const
   {
     const Real r = io.radii.at ? static_cast<Real>(io.radii[i]) : io.radius;
@@ -26,7 +26,7 @@ struct TreeAnswers {
   {
     if (io.radii.at) too_large.note(i, SphereOf<T>{0, 0, 0, io.radii[i]});
   }
-  // Writes the answer of q, found for q / times.
+  // Writes the answer of q, which was found for q / times.
   LSDCD_FN void store(std::size_t i, const Vec3 &q, const TreeAnswer &a, Real times) const
   {
     const Real distance = a.found() ? times * a.distance : HUGE_VAL;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points against a mesh by its tree, at any distance, in the caller's own arrays. On the CPU.
+// Queries a mesh by its tree for points at any distance, in the caller's own arrays, on the CPU.
 #pragma once
 
 #include "query/point_work.h"
@@ -12,8 +12,8 @@
 
 namespace lsdcd {
 
-// A bit for each of some boxes: may anything be within a cutoff of a point in there? Points in the other boxes
-// need no search.
+// A bit for each box of a region: may anything be within a cutoff of a point in that box? Points in the other
+// boxes need no search.
 class CutoffBoxes {
  public:
   CutoffBoxes(const TriangleTree &tree, const WeldedMesh &mesh, Real cutoff,
@@ -22,7 +22,7 @@ class CutoffBoxes {
   bool may_be_within(const Vec3 &q) const
   {
     const Vec3 at = per_length_ * (q - lo_);
-    // Also where a coordinate is no number.
+    // True also if a coordinate is not a number.
     if (!((at.x >= 0) & (at.y >= 0) & (at.z >= 0) & (at.x < n_) & (at.y < n_) & (at.z < n_)))
       return false;
     const std::size_t i =
@@ -48,10 +48,10 @@ inline std::size_t bytes_of(const TriangleTree *tree, const CutoffBoxes *boxes)
   return (tree ? tree->bytes() : 0) + (boxes ? boxes->bytes() : 0);
 }
 
-// It uses threads() threads. It has no state, so that any number of threads may call it at once. Nothing as
-// far as a point's radius is found; `cutoff` is the largest radius, of `boxes`, too, which may be null. All but
-// the side, which must not be asked for. Throws InputError if a radius in `radii` exceeds the cutoff; the
-// answers are then undefined. T: float or double.
+// Answers points with threads() threads. There is no state, so that any number of threads may call it at the
+// same time. Only what is nearer than a point's radius is found; `cutoff` is the largest radius, also that of
+// `boxes`, which may be null. Answers everything except the side, which must not be asked for. Throws
+// InputError if a radius in `radii` exceeds the cutoff; the answers are then undefined. T: float or double.
 template <class T>
 void query_tree(const TriangleTree &tree, const CutoffBoxes *boxes, Real cutoff,
                 const PointArrays<T> &io);
