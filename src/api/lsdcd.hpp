@@ -881,7 +881,7 @@ struct WallSpec {
   bool periodic_ends = false, brief = false;
   int average_every = 0;        // steps
   bool each_contact = false;    // Wall::contacts() will be called
-  bool energy = false;          // what contacts dissipate is booked
+  bool energy = false;          // what contacts dissipate is recorded
   double friction_heat = 0;     // the share of the heat of friction that goes into the spheres
   double impact_speed = 0;      // length/time; impacts that are faster are recorded
   bool shapes = false;          // grains may be no spheres

@@ -33,8 +33,8 @@ class ComputeEnergyLsdcd : public Compute, protected OwnMessages {
   double potential() const;
 
   OutputVariables variables;
-  bool told = false;             // of a wall that books nothing
-  bool told_of_rerun = false;    // in which nothing is booked
+  bool told = false;             // of a wall that records nothing
+  bool told_of_rerun = false;    // in which nothing is recorded
   int discs = 0;                 // bits of the groups whose grains are discs
   RerunWatch watch;
 };

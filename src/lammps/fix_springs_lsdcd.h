@@ -95,7 +95,7 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
 
   lsdcd::Partners partners;
   int law_width = 0;             // numbers of the laws, which are in restart files
-  lsdcd::BookedEnergy energy;    // of pairs on this process, where it is booked
+  lsdcd::BookedEnergy energy;    // of pairs on this process, if it is recorded
   bool books = false;
   lsdcd::PairHistory history[2];
   int now = 0;              // which of them the last step has written

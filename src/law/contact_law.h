@@ -54,7 +54,7 @@ struct ContactLaw {
   bool limit_damping = false;
   // It acts on grains that may be no spheres, too: a contact with a history keeps the arm of its grain.
   bool for_shapes = false;
-  // A contact keeps its forces for the next step (KeptForces), in which books of energy need them.
+  // A contact keeps its forces for the next step (KeptForces), in which the energy balance needs them.
   bool keeps_forces = false;
   // Beside these, KeptAtNodes.
   bool keeps_at_nodes = false;

@@ -15,7 +15,7 @@
 // and, with kVectors or kScalars, and with kHeat
 //   stores(k)           is the k-th of these vectors and scalars stored from step to step?
 //   has_heat()         is there a heat flow?
-// Laws with which energy is booked (with_energy_law()) say with parts() what a force is made of.
+// Laws with which energy is recorded (with_energy_law()) say with parts() what a force is made of.
 // The classic laws, and the most frequent ones of `granular`, have no instruction and no memory for an
 // effect that is off. Effects that few scenes use are together in one law, with a branch for each. It
 // stores and exchanges only what is on.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the force of a contact is made of, for the books of energy: parts() of a law returns it after evaluate(). A
+// What the force of a contact is made of, for the energy balance: parts() of a law returns it after evaluate(). A
 // formula says its spring in terms of what a contact keeps, and nothing of what it dissipates.
 #pragma once
 
@@ -39,8 +39,9 @@ struct ForceParts {
   SpringPart twisting;    // of the contact torque about the normal
 };
 
-// What a contact keeps of a step for the next one, which books the second half of its work. Forces and torques act on the
-// sphere; they and the stiffnesses are times the weight of the contact. Vectors are in the frame of the mesh.
+// What a contact keeps of a step for the next one, which adds the second half of its work to the energy balance.
+// Forces and torques act on the sphere; they and the stiffnesses are times the weight of the contact. Vectors are in
+// the frame of the mesh.
 struct KeptForces {
   Real held;                // elastic energy
   Real weight;              // of the contact among those that share an overlap

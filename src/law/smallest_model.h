@@ -148,7 +148,7 @@ auto with_granular_added_law(const ContactLaw &p, const Make &make)
   return with_granular_sets<GranularSet::midpoint, GranularSet::all>(p, make);
 }
 
-// Any law that keeps_forces or keeps_touch: calls make(law) with one of few that are compiled with books of energy and impacts: that of
+// Any law that keeps_forces or keeps_touch: calls make(law) with one of few that are compiled with energy balance and impacts: that of
 // `granular` without sub-models that few scenes use, or one that has all.
 template <class Make>
 auto with_energy_law(const ContactLaw &p, const Make &make)

@@ -50,7 +50,7 @@ PairLaw law_without_books(const ContactLaw &law)
 
 PairLaw pair_law(const ContactLaw &law)
 {
-  ContactLaw forces = law;    // the same with books as without
+  ContactLaw forces = law;    // the same with energy balance as without
   forces.keeps_forces = false;
   PairLaw out = law_without_books(forces);
   if (law.keeps_forces) set_book(law, out);

@@ -26,16 +26,16 @@ struct Spread {
   }
 };
 
-// Spheres are chosen every kChosenEvery steps, for a way of kMargin of the largest radius: half of the skin of a host's
-// neighbour lists, whose renewal asks for the choice. The fastest sphere goes that way in this time, the others go any part
+// There is a candidate search every kChosenEvery steps, for a way of kMargin of the largest radius: half of the skin of a
+// host's neighbour lists, whose renewal asks for the search. The fastest sphere goes that way in this time, the others go any part
 // of it, each straight on in a direction of its own. An impact at the speed of the fastest overlaps by 1 % of the radius
 // where a contact lasts 50 steps: overlap / radius = 50 steps / pi * 0.2 / 336.
 constexpr Real kMargin = 0.2;
 constexpr int kChosenEvery = 336;
 
 struct StepTimes {
-  Spread step;          // of one step, the mean between two choices; with its share of a choice
-  Spread choice;        // of one choice, with the lists that it makes
+  Spread step;          // of one step, the mean between two searches; with its share of one
+  Spread choice;        // of one candidate search, with the lists that it makes
   double listed = 0;    // features of a kept list in the mean; 0: no list is kept
   std::size_t kept_bytes = 0;    // of the engine
 };

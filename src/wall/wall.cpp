@@ -158,7 +158,7 @@ void Wall::log_creation(const std::string &material, const WallBackend &backend)
 }
 
 // Runs what this process does alone in a step. A process whose step has failed takes part in what all processes do together, with no
-// contacts: they do not wait for it, and finish() throws what it was.
+// contacts, so that the others do not wait for it; finish() then throws the error.
 template <class Work>
 void Wall::guard(const HostSpheres &spheres, Work &&work)
 {
@@ -229,7 +229,7 @@ void Wall::open_step(const HostSpheres &spheres, const StepInput &input)
     snapshots_.check(meshes_, step);
     history_.clear();
   }
-  // A choice is of radii, and has spheres of one law together.
+  // A candidate search depends on radii, and puts spheres of one law together.
   if (input.look) {
     engine_->expire_choice();
     check_history(spheres.n);

@@ -13,8 +13,8 @@
 
 namespace lsdcd {
 
-// Marks slot k as having no list yet, if the nodes of its mesh move: such lists are made in steps
-// (nodes/node_list.h).
+// Marks candidate-mesh pair k as having no list yet, if the nodes of its mesh move: such lists are made in
+// steps (nodes/node_list.h).
 struct LeaveOut {
   const PosedGrid *meshes;
   const int *mesh;
@@ -51,10 +51,10 @@ struct GatherWork {
   }
 };
 
-// Makes the list of slot k, for more than one mesh.
+// Makes the list of candidate-mesh pair k, for more than one mesh.
 struct GatherSlotWork {
   const PosedGrid *meshes;
-  const int *mesh;    // of each slot
+  const int *mesh;    // of each candidate-mesh pair
   CandidateSpheres spheres;
   Real margin;
   FeatureLists lists;
@@ -104,7 +104,7 @@ class FeatureListStore {
     if (!B::kOnCpu) multi_contact_.reserve(n);
     b.for_each_in_warps(n, gather_work(grid, pose, spheres, margin, counts));
   }
-  // Does the same for n slots of more than one mesh. `large`: is any of the meshes large?
+  // Does the same for n candidate-mesh pairs of more than one mesh. `large`: is any of the meshes large?
   void make(B &b, const GridView &first_grid, bool large, const PosedGrid *meshes, const int *mesh,
             const CandidateSpheres &spheres, Real margin, StepCounts *counts)
   {
@@ -125,8 +125,8 @@ class FeatureListStore {
   }
 
  private:
-  // Marks n slots as having no list yet, if nodes of their mesh move. `meshes` null: all slots are of one
-  // mesh.
+  // Marks n candidate-mesh pairs as having no list yet, if nodes of their mesh move. `meshes` null: all of
+  // them are of one mesh.
   void leave_out(B &b, std::size_t n, const PosedGrid *meshes, const int *mesh)
   {
     b.for_each(n, LeaveOut{meshes, mesh, lists_.lengths});

@@ -286,7 +286,8 @@ class SphereMirror {
     b.wait();
   }
 
-  // Lists each candidate once, because those near several meshes have a slot for each mesh, and forces are copied back once.
+  // Lists each candidate once, because those near several meshes have a candidate-mesh pair for each mesh, and forces are
+  // copied back once.
   void list_each_once(B &b, const CandidateSlots<B> &slots)
   {
     const std::size_t n = slots.n_spheres();

@@ -41,7 +41,7 @@ class ResultsOn : public StepResults {
   explicit ResultsOn(B &backend) : b_(&backend) {}
 
   // Begins a step of n candidates among these spheres. `candidates`: their indices. `adds_later`: will
-  // add_forces() be called? `meshes`: which slots are of which mesh; null if there is one mesh.
+  // add_forces() be called? `meshes`: which candidate-mesh pairs are of which mesh; null if there is one mesh.
   void begin(const LawTraits &traits, const StepSettings &step, const Spheres &spheres,
              const int *candidates, std::size_t n, bool may_miss, bool adds_later,
              const CandidateSlots<B> *meshes = nullptr)
@@ -238,7 +238,8 @@ class ResultsOn : public StepResults {
 
   // The steps of the functions above. Public because nvcc takes no device lambda from a private function.
 
-  // Fetches the touching spheres. The slots of a sphere at several meshes follow each other, and make one row.
+  // Fetches the touching spheres. The candidate-mesh pairs of a sphere at several meshes follow each other, and
+  // make one row.
   void fetch_touching(B &b)
   {
     const std::size_t n = n_;
@@ -338,7 +339,7 @@ class ResultsOn : public StepResults {
     totals_ = read_sum(0);
   }
 
-  // Starts the sums of each mesh if there are slots, else those of all candidates.
+  // Starts the sums of each mesh if there are candidate-mesh pairs, else those of all candidates.
   void start_sums(B &b) { sum(b, slots_ ? slots_->n_meshes() : 1); }
 
   // Starts the sums of one part, which is all candidates, or of as many parts as there are meshes. Does not wait.
@@ -389,7 +390,7 @@ class ResultsOn : public StepResults {
 
   ResultColumns columns_;
   Array<Real> numbers_, heat_, uncertain_;
-  Array<EnergyRows> energy_;    // of each slot, if the law records energy
+  Array<EnergyRows> energy_;    // of each candidate-mesh pair, if the law records energy
   Array<char> is_booked_;
   std::vector<EnergyRows> energy_of_mesh_;
   EnergySums<B> energy_sums_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums the energy balance over the slots of a step, by mesh, in fixed point (sum_unit.h).
+// Sums the energy balance over the candidate-mesh pairs of a step, by mesh, in fixed point (sum_unit.h).
 #pragma once
 
 #include "backend/atomic.h"
@@ -23,13 +23,13 @@ struct EnergyUnits {
   std::int64_t of[kEnergyRows];
 };
 
-// Slots in blocks. On a GPU each thread has one slot, and its warp adds up before it writes to memory; on a CPU a thread writes once
-// for a block.
+// Candidate-mesh pairs in blocks. On a GPU each thread has one pair, and its warp adds up before it writes to memory; on a CPU a
+// thread writes once for a block.
 struct BookedSlots {
   std::size_t n;
   const EnergyRows *rows;
   const char *is_booked;
-  const int *mesh;    // of each slot; null: there is one mesh
+  const int *mesh;    // of each candidate-mesh pair; null: there is one mesh
 
   template <class B>
   static constexpr std::size_t kBlock = B::kOnCpu ? kTotalsBlock : 1;
@@ -40,8 +40,8 @@ struct BookedSlots {
   }
 
   LSDCD_FN int mesh_of(std::size_t k) const { return mesh ? mesh[k] : 0; }
-  // Calls see(k) for each recorded slot of block `at`, and flush(mesh) after the slots of a mesh if slots of another mesh follow in
-  // this block. Returns the last mesh, whose slots are still to be flushed; -1: no slot is recorded.
+  // Calls see(k) for each recorded candidate-mesh pair of block `at`, and flush(mesh) after the pairs of a mesh if pairs of another
+  // mesh follow in this block. Returns the last mesh, whose pairs are still to be flushed; -1: no pair is recorded.
   template <class B, class See, class Flush>
   LSDCD_FN int for_each(std::size_t at, const See &see, const Flush &flush) const
   {
@@ -135,7 +135,7 @@ inline EnergyRows energy_of(const EnergyUnits &sums, const EnergyRange &range)
   return rows;
 }
 
-// Sums the recorded slots of each mesh, and copies the sums to the CPU.
+// Sums the recorded candidate-mesh pairs of each mesh, and copies the sums to the CPU.
 template <class B>
 class EnergySums {
  public:

@@ -341,8 +341,8 @@ LSDCD_FN bool needs_list(const Law &law, const StepJob &job, std::size_t k)
   return !job.lists.holds(k, s.x, s.cutoff);
 }
 
-// Makes a new list of slot k, whose sphere is s. The list is for no smaller radius than at the candidate search, because a sphere that has
-// shrunk may grow to that radius again. This is a function of its own, so that its list is not on the stack of the rest.
+// Makes a new list of candidate-mesh pair k, whose sphere is s. The list is for no smaller radius than at the candidate search, because a
+// sphere that has shrunk may grow to that radius again. This is a function of its own, so that its list is not on the stack of the rest.
 template <unsigned kSize>
 LSDCD_NOINLINE void put_list(const StepJob &job, const Warp<kSize> &warp, bool mine,
                              const GridView &grid, QuerySphere s, std::size_t k)
@@ -359,7 +359,7 @@ LSDCD_NOINLINE void put_list(const StepJob &job, const Warp<kSize> &warp, bool m
   job.lists.put(k, made, grid.wall, !has_grown);
 }
 
-// Makes a new list of slot k if the nodes of the mesh move. Candidates have no list yet after a candidate search.
+// Makes a new list of candidate-mesh pair k if the nodes of the mesh move. Candidates have no list yet after a candidate search.
 template <unsigned kSize>
 LSDCD_NOINLINE void put_node_list(const StepJob &job, const Warp<kSize> &warp, bool mine,
                                   const QuerySphere &s, std::size_t k)

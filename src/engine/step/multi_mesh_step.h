@@ -35,7 +35,7 @@ LSDCD_FN Spring SpringsInFrame::operator[](int k) const
   return s;
 }
 
-// A multi-mesh sphere in the frame of the box. It has one slot (candidate-mesh pair) for each mesh.
+// A multi-mesh sphere in the frame of the box. It has one candidate-mesh pair (slot) for each mesh.
 struct MultiMeshSphere {
   int begin, end;
   std::size_t i;
@@ -77,7 +77,7 @@ LSDCD_FN MultiMeshSphere multi_mesh_sphere(const StepJob &job, std::size_t g)
   return s;
 }
 
-// Returns the query for the sphere in the frame of the mesh of slot k.
+// Returns the query for the sphere in the frame of the mesh of candidate-mesh pair k.
 template <bool kBeyondContact>
 LSDCD_FN QuerySphereWith<SpringsInFrame> in_frame_of(const StepJob &job, const MultiMeshSphere &s,
                                                      int k)
@@ -155,10 +155,10 @@ LSDCD_FN void add_mesh(const Turn &turn, const ContactSet<kCapacity> &of_mesh, R
   }
 }
 
-// Finds the contacts of the sphere with their weights, mesh after mesh, in the frame of each: those of slot begin + k end at
-// end[k]. This is a function of its own, so that it is compiled once however many laws there are. If only one mesh is touched, all
-// is computed in its frame, as in a MeshStep: whether the sphere is also a candidate of others depends on the time of the candidate
-// search, and must change no bit.
+// Finds the contacts of the sphere with their weights, mesh after mesh, in the frame of each: those of candidate-mesh pair begin +
+// k end at end[k]. This is a function of its own, so that it is compiled once however many laws there are. If only one mesh is
+// touched, all is computed in its frame, as in a MeshStep: whether the sphere is also a candidate of others depends on the time of
+// the candidate search, and must change no bit.
 template <bool kBeyondContact, class Memory, int kCapacity>
 LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &s,
                                            Memory &memory, WeightedContacts<kCapacity> &all,
@@ -166,7 +166,7 @@ LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSp
 {
   WeightedContacts<kCapacity> &of_mesh = memory.of_mesh;
   Real tolerance = 0, cutoff = 0;    // the largest of the meshes that are touched
-  int touched = -1;                  // slot of the first of these meshes
+  int touched = -1;                  // candidate-mesh pair of the first of these meshes
   bool in_box = false;               // more than one is touched: normals are in the box's frame
   const auto pose_of = [&](int k) -> const Pose & {
     return job.multi_mesh.meshes[job.multi_mesh.mesh[k]].settings.pose;
@@ -205,7 +205,7 @@ LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSp
       all.set.normal[c] = pose_of(k).turn_to_mesh(all.set.normal[c]);
 }
 
-// A multi-mesh sphere and its contacts, for apply_law(): those of slot begin + k end at ends[k].
+// A multi-mesh sphere and its contacts, for apply_law(): those of candidate-mesh pair begin + k end at ends[k].
 template <class Law>
 struct AtMeshes {
   static constexpr bool kSeveral = true;
@@ -295,7 +295,7 @@ struct MultiMeshStep {
     multi_mesh_contacts<Law>(job, g, memory);
     return true;
   }
-  // Returns the centre in the frame of the mesh of slot k.
+  // Returns the centre in the frame of the mesh of candidate-mesh pair k.
   LSDCD_FN Vec3 centre_in_frame(const MultiMeshSphere &s, int k) const
   {
     return in_frame_of<Law::kBeyondContact>(job, s, k).x;

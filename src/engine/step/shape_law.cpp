@@ -57,7 +57,7 @@ CompiledLaw<CpuBackend> compiled(const Base &base, ShapeWork &work)
   return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
 }
 
-// Returns a law for shapes with books of energy, by one of spheres that says what its force is made of. What that keeps beside its spring is
+// Returns a law for shapes with energy balance, by one of spheres that says what its force is made of. What that keeps beside its spring is
 // of effects that are off.
 template <bool kRecords, class Base>
 CompiledLaw<CpuBackend> booked(const Base &base, bool reads, [[maybe_unused]] bool keeps_losses,

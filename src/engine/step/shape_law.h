@@ -39,7 +39,7 @@ struct ShapeWork {
   std::vector<Superellipsoid> shape;    // of each candidate, by its index; half-axes 0: a sphere
   std::vector<Quaternion> turn;         // orientation of each of them that is no sphere, as in rows
   std::vector<const TriangleTree *> trees;    // of each mesh
-  std::vector<NearList> near;                 // of each slot
+  std::vector<NearList> near;                 // of each candidate-mesh pair
   // kNoSphere less the index of the first grain whose nearest points were not found to rounding, or 0: an error.
   std::uint64_t unsure = 0;
   // The largest overlap, divided by the depth that a contact may have (ShapeAtMeshes::check_depths), as DeepestOverlap::ratio(), and

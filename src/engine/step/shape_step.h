@@ -365,7 +365,7 @@ struct ShapeStep {
   }
 
  private:
-  // Notes that the grain of a slot is larger than the reach of the grid, or than it was at the candidate search.
+  // Notes that the grain of a candidate-mesh pair is larger than the reach of the grid, or than it was at the candidate search.
   void check_radius(std::size_t slot, std::size_t i, Real radius) const
   {
     check_cutoff(job(), i, radius);

@@ -68,12 +68,12 @@ struct OverflowScratch {
 };
 constexpr int kOverflowScratches = 8;    // 1 MB each
 
-// Candidates of more than one mesh. Sphere g has the slots (candidate-mesh pairs) first[g] .. first[g + 1] - 1, one for
-// each mesh, ascending. In a job with these, k is a slot and not a sphere.
+// Candidates of more than one mesh. Sphere g has the candidate-mesh pairs (slots) first[g] .. first[g + 1] - 1, one for
+// each mesh, ascending. In a job with these, k is a candidate-mesh pair and not a sphere.
 struct MultiMeshSpheres {
   const MeshWork *meshes = nullptr;    // null: there are none in this job
   const int *first = nullptr;
-  const int *mesh = nullptr;    // of each slot
+  const int *mesh = nullptr;    // of each candidate-mesh pair
   LawsView laws = {};
 };
 
@@ -125,7 +125,7 @@ LSDCD_FN QuerySphere query_sphere_of(const StepJob &job, std::size_t i, const Ve
   return s;
 }
 
-// Returns the same job from slot `first` on.
+// Returns the same job from candidate-mesh pair `first` on.
 inline StepJob from_slot(StepJob job, std::size_t first)
 {
   job.candidates += first;

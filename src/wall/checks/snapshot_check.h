@@ -16,8 +16,8 @@ class SnapshotCheck {
   // Both must outlive it.
   SnapshotCheck(Host &host, const WallSpec &wall) : host_(host), wall_(wall) {}
 
-  // Throws InputError where a place, a surface or a mean is not known in this snapshot, and warns once of the springs, spins, loads
-  // and books that are not.
+  // Throws InputError if a place, a surface or a mean is not known in this snapshot, and warns once of springs, spins, loads and
+  // energies that are not known.
   void check(const std::deque<MeshPart> &meshes, const Step &step);
 
  private:

@@ -43,7 +43,7 @@ class BodyCoat {
   // Finds the contacts and adds them to the pushes. Throws where a point has gone through a mesh since the step before.
   void begin(const std::deque<MeshPart> &meshes, const Step &step, CoatPushes &pushes);
   // Computes the contacts, whose damping hangs on all pushes, and adds them to the loads of each mesh, and what they do with energy where
-  // that is booked. `receded`: see StepSettings; empty: no mesh has moved so.
+  // that is recorded. `receded`: see StepSettings; empty: no mesh has moved so.
   using Receded = std::vector<std::vector<Vec3>>;
   void finish(const std::deque<MeshPart> &meshes, const Step &step, const CoatPushes &pushes,
               const Receded &receded, std::vector<CoatLoad> &loads, CoatEnergy &energy);

@@ -41,7 +41,7 @@ class BodyCoats {
   const std::vector<CoatLoad> *loads() const { return any() ? &loads_ : nullptr; }
   // Returns the load on a mesh, which is 0 where there are no coats.
   const CoatLoad &load(int mesh) const;
-  // Returns what their contacts did with energy in the last step, the same on all processes; nothing where none is booked.
+  // Returns what their contacts did with energy in the last step, the same on all processes; nothing if none is recorded.
   const CoatEnergy &energy() const { return energy_; }
   // Returns the largest rates of the bodies that a coat of this mesh touched, or whose coats touched it.
   ModeRates fastest_touched(int mesh,

@@ -20,7 +20,7 @@ struct WallContact {
   Vec3 point;      // of the mesh: the closest to the centre, or the deepest in a grain of shape
   Real overlap;    // length
   bool has_ended = false;
-  const KeptLosses *losses = nullptr;    // until the next step; null: no energy is booked
+  const KeptLosses *losses = nullptr;    // until the next step; null: no energy is recorded
 };
 
 // See the functions of Wall with these names. `poses`: of its meshes in the step of the results.

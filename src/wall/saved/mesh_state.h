@@ -99,7 +99,7 @@ struct MeshState {
   SurfaceState surface;                // of a mesh that recedes by its wear
   std::vector<MeanLoadState> mean;     // one, or none where there are no means
   std::vector<StepLoad> last;          // one; none: data without it
-  std::vector<BookedEnergy> energy;    // one, or none where energy is not booked
+  std::vector<BookedEnergy> energy;    // one, or none if energy is not recorded
   std::vector<Real> energy_places;     // of all processes, as of EnergyPlaces::packed()
   std::vector<Real> impacts;    // as of ImpactSpectrum::packed(); none where they are not recorded
 };

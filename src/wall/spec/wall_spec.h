@@ -101,7 +101,7 @@ struct WallSpec {
   int average_every = 0;        // steps of each mean of MeanLoads; 0: there is none
   bool contacts = false;        // for_contact_rows() will be called
   bool each_contact = false;    // for_contacts() will be called
-  bool energy = false;          // what contacts do with energy is booked (EnergyBooks)
+  bool energy = false;          // what contacts do with energy is recorded (EnergyBooks)
   Real friction_heat = 0;       // the share of the heat of friction that goes into the spheres
   Real impact_speed =
       0;    // length/time; impacts that are faster are recorded (EnergyRecorder); 0: none

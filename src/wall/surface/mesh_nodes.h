@@ -51,7 +51,7 @@ class MeshNodes {
 
   // Is a new grid needed, because this one is for another cutoff or a node has gone too far?
   bool needs_grid(Real cutoff) const;
-  // Have nodes gone so far since candidates were chosen that the lists of spheres are no longer complete?
+  // Have nodes moved so far since the last candidate search that the lists of spheres are no longer complete?
   bool needs_choice(Real cutoff) const;
   void note_choice() { way_ = 0; }
   void build_grid(Real cutoff);
@@ -119,7 +119,7 @@ class MeshNodes {
   bool are_set_ = false, are_set_in_place_ = false;    // for the next step; the last time
   bool are_restored_ = false;                          // a saved state has set them
   Real cutoff_ = 0;                                    // of the grid; 0: there is none
-  Real way_ = 0;            // of the fastest node in each step since the choice
+  Real way_ = 0;            // of the fastest node in each step since the candidate search
   Real way_of_grid_ = 0;    // how far a node has gone since the grid was built
   Forces state_ = Forces::none;
   NodeForceRange range_ = {};

@@ -46,7 +46,7 @@ class MeshSurface {
 
   // Moves vertices where that is due, but nodes. Returns whether it did: then the grid is to be built again. Collective.
   virtual bool change(const Step & /* step */) { return false; }
-  // Returns by how far change() has moved each vertex (length), where energy is booked; the same on all processes. Else empty.
+  // Returns by how far change() has moved each vertex (length), if energy is recorded; the same on all processes. Else empty.
   virtual std::vector<Vec3> receded() const { return {}; }
   // Begins a step.
   virtual void begin(const Step & /* step */, Real /* cutoff */) {}

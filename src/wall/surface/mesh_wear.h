@@ -37,7 +37,7 @@ class MeshWear {
   // processes that have the mesh, and receded() how far they went. `mesh`: as above, where it is now. Logs once where nodes stay
   // from now on. Throws InputError where too much has worn for one move. Collective.
   bool recede(const WeldedMesh *mesh, std::int64_t step, std::vector<Vec3> &at);
-  // Where energy is booked, of each vertex, on all processes; else empty.
+  // If energy is recorded, of each vertex, on all processes; else empty.
   const std::vector<Vec3> &receded() const { return receded_; }
 
   // Volumes (length^3), the same on all processes. Removed: between the first surface and that of this step. Held back: worn by

@@ -15,7 +15,7 @@ namespace lsdcd {
 // Gives the nodes to the first engine of a wall, or those of the last one, which must be there still, to another. Collective.
 void give_nodes(Host &host, const std::vector<MeshNodes *> &all, WallEngine *last,
                 WallEngine &engine);
-// Before spheres are chosen: makes the grids that are due, and then turns the springs of spheres [0, n) with their
+// Before a candidate search: makes the grids that are due, and then turns the springs of spheres [0, n) with their
 // features. Each process has all nodes, and comes to the same grids. Local.
 void place_nodes(const std::vector<MeshNodes *> &all, WallEngine &engine, Real cutoff, int n);
 // Gives the forces of the last step the range of all processes where these are several, by one message. Collective.
