@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Run in.mill with several timesteps; print what drives the mill, where the power goes, and how far the books are from closing."""
+"""Run in.mill with several timesteps; print what drives the mill, where the power goes, and how far the energy balance is from closing."""
 import shutil
 import sys
 from pathlib import Path
