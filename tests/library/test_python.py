@@ -435,7 +435,7 @@ def test_specs():
         fact("meshes go by their names", (wall.pose("lid") == wall.pose(1)).all() and wall.pose("lid")[2, 3] == 2 and
              wall.totals("mesh 1").contacts == 1 and wall.totals("lid").contacts == 0)
         refused("a name that there is not", "no mesh is called; there are 'mesh 1', 'lid'", lambda: wall.pose("cover"), ValueError)
-    refused("a wall after `with`", "`wall` is null", lambda: wall.totals(), lsdcd.Error)
+    refused("a wall after `with`", "this Wall is closed", lambda: wall.totals(), lsdcd.Error)
     with lsdcd.Mesh(square, [[0, 1, 2]]) as closed:
         part = lsdcd.WallMesh(closed)
     refused("a mesh that has been closed", "meshes[0]: its Mesh has been closed", lambda: lsdcd.Wall(lsdcd.WallSpec(law, [part])),
@@ -740,7 +740,7 @@ def test_closed_in_a_callback():
         acts.clear()
         fact("and is closed behind that", wall.close() is None and not wall._handle)
     grid.close()
-    refused("a closed grid answers no more", "is null", lambda: grid.query(points), lsdcd.Error)
+    refused("a closed grid answers no more", "this Grid is closed", lambda: grid.query(points), lsdcd.Error)
 
 
 def check_memory_of_shapes():

@@ -768,6 +768,7 @@ class Wall(_Owner):
 
     def _do(self, call: Any, *arguments: Any, meshes: Sequence[Mesh] = ()) -> None:
         """Makes a call of the wall, which reads these meshes."""
+        self._check_open()
         if self._host is None and not self._show:    # nothing that C calls
             return _check(call(*arguments))
         if self._calls:
@@ -801,6 +802,9 @@ class Wall(_Owner):
         Raises TypeError for arrays of another type or place, ValueError for another shape, layout or what cannot be written, Error for
         what lsdcd_wall_step_spheres() refuses. Either of the two where force, torque or heat shares memory with another array."""
         n = _arrays.read(radius, "radius", _arrays.stream_handle(self._stream)).shape[:1]
+        rows = _arrays.read(x, "x", _arrays.stream_handle(self._stream)).shape[:1] if _is_array(x) else n
+        if len(rows) == len(n) == 1 and rows != n:
+            raise ValueError(f"radius has {n[0]} and x {rows[0]}: both have one for each sphere, and x is not a contiguous float64 array of shape {(*n, 3)}")
         vectors = {"x": x, "v": v, "omega": omega, "force": force, "torque": torque}
         numbers = {"radius": radius, "mass": mass, "temperature": temperature, "heat": heat, "type": type}
         given = {name: (array, (*n, 3)) for name, array in vectors.items()}
@@ -854,7 +858,8 @@ class Wall(_Owner):
                 copied = _copied(array, name, kind, added)
                 if copied is not None:
                     return copied
-            raise (TypeError if wrong_type else ValueError)(f"{name} is not a contiguous {kind.name} array of shape {shape}")
+            raise (TypeError if wrong_type else ValueError)(f"{name} is not a contiguous {kind.name} array of shape {shape}" +
+                                                                   ("" if array is None else f", but {array.dtype} of shape {array.shape}"))
         if array.on_host == self._on_device:
             where, other = ("a CUDA device", "cpu") if self._on_device else ("the host", "cuda")
             raise TypeError(f"{name} is {_place(array)}, and the wall was made for arrays on {where}: make it with "

@@ -239,6 +239,7 @@ class _Owner:
 
     def __init__(self) -> None:
         self._handle = _at()
+        self._is_closed = False
         self._calls: list[None] = []    # one for each call that uses the memory; see _in_use()
 
     def __del__(self) -> None:
@@ -254,7 +255,12 @@ class _Owner:
             self._handle = handle
             raise Error(f"this {type(self).__name__} cannot be closed, as a call of it has not returned: close it behind that call, not in "
                         "its callback or in another thread", "argument")
+        self._is_closed = True
         self._free(handle)
+
+    def _check_open(self) -> None:
+        if self._is_closed:
+            raise Error(f"this {type(self).__name__} is closed: make another one", "argument")
 
     def __enter__(self: _Self) -> _Self:
         return self
@@ -270,10 +276,12 @@ class _Owner:
 @contextlib.contextmanager
 def _in_use(*objects: _Owner) -> Iterator[None]:
     """Meanwhile none of these objects can be closed: calls of C let other threads run, and may call Python back. Their handles are to be
-    read within."""
+    read within. Raises Error for one that is closed."""
     for one in objects:
         one._calls.append(None)
     try:
+        for one in objects:
+            one._check_open()
         yield
     finally:
         for one in objects:
