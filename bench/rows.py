@@ -103,7 +103,9 @@ def read(folder, file, device="cpu"):
 
 
 def keep(folder, file, text, device):
-    """Puts the rows that a program printed into FOLDER/FILE_DEVICE.csv, by the device that a row names; the paths."""
+    """Puts the rows that a program printed into FOLDER/FILE_DEVICE.csv, or with another ending that FILE has, by the device that a row names;
+    the paths."""
+    file, _, ending = file.partition(".")
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     heads = text.partition("\n")[0]
@@ -116,8 +118,8 @@ def keep(folder, file, text, device):
         made = {d: as_csv(replaced(read(folder, file, d), its)) for d, its in by_device.items()}
     paths = []
     for d, each in made.items():
-        paths.append(folder / f"{file}_{d}.csv")
-        part = folder / f"{file}_{d}.csv.part"
+        paths.append(folder / f"{file}_{d}.{ending or 'csv'}")
+        part = paths[-1].with_name(paths[-1].name + ".part")
         part.write_text(each)
         os.replace(part, paths[-1])
     return paths

@@ -4,20 +4,25 @@
 
 """Runs benchmarks: programs that print CSV.
 
-usage: run.py [--build DIR] [--only cpu|cuda] [--quick] [--keep | --rows-to DIR] [--commit NAME] [NAME ...] [words ...]
+usage: run.py [--build DIR] [--only cpu|cuda] [--quick] [--keep | --rows-to DIR] [--commit NAME] [NAME ... | all] [words ...]
 
 Without --keep rows go to build/bench; with it to doc/data, where a row takes the place of the one of the same case, sizes and
 order. Then bench/pages.py writes the tables of the pages. Words go to the programs: `./run bench query --help` lists them.
+`all` runs each benchmark that this machine can, one after another, says at the end what each took and what could not be run, and with
+--keep writes the tables of the pages.
 
 """
 import argparse
 import os
+import pathlib
 import subprocess
 import sys
+import tempfile
+import time
 
 import rows
 
-# Name: file of doc/data, devices, command, what it measures.
+# Name: file of doc/data, devices, command, what it measures. A command with {csv} writes its rows there, others print them.
 CPU, BOTH = ("cpu",), ("cpu", "cuda")
 COMMON = "--device {device} --commit {commit} {quick}"
 SCRIPT = "{python} {bench}/"
@@ -40,11 +45,15 @@ BENCHMARKS = {
     "nodes": ("nodes", BOTH, "{bin}/bench_nodes " + COMMON, "a rigid sheet and one whose nodes move"),
     "tradeoff": ("tradeoff_vessel", BOTH, SCRIPT + "tradeoff.py vessel " + COMMON, "what accuracy costs in time, in the vessel of examples/vessel"),
     "tradeoff-paper": ("tradeoff_paper", BOTH, SCRIPT + "tradeoff.py paper " + COMMON, "the same on the paper's cylinder"),
+    "accuracy": ("accuracy", BOTH, "{bin}/lsdcd accuracy all --device {device} --commit {commit} {study} --csv {csv}", "the paper's study"),
+    "hard-cases": ("hard_cases.tsv", BOTH, SCRIPT + "hard_cases.py " + COMMON, "the rows of doc/hard_cases.md, by the tests"),
     "device": ("device", CPU, SCRIPT + "device.py " + COMMON, "steps of a LAMMPS without Kokkos on a core and on a GPU"),
 }
 DEFAULT = ("query", "build", "step")
 ON_ONE_CORE = ("mesh-size", "effects", "pairs", "bodies", "nodes", "shapes", "tradeoff", "tradeoff-paper")
 EFFECTS = {"cpu": "5000 401", "cuda": "200000 31"}    # spheres, rounds
+STUDY = {"cpu": "", "cuda": "--order random sorted --most-spheres 6e7 --most-triangles 1e6"}
+QUICK_STUDY = "--spheres 1e5 --most-triangles 1e4 --repeats 1"
 
 
 def listed():
@@ -62,8 +71,16 @@ def measure(name, device, args, words, folder):
     """Runs a benchmark on a device and keeps its rows in a folder; its exit status."""
     file, _, command, _ = BENCHMARKS[name]
     known = {"bin": os.path.join(args.build, "bin"), "python": sys.executable, "bench": os.path.dirname(os.path.abspath(__file__)),
-             "device": device, "commit": args.commit.replace(" ", "_"), "quick": "--quick" * args.quick, "effects": EFFECTS[device]}
-    command = [word.format(**known) for word in command.format(**known).split()] + words
+             "device": device, "commit": args.commit.replace(" ", "_"), "quick": "--quick" * args.quick, "effects": EFFECTS[device],
+             "study": QUICK_STUDY if args.quick else STUDY[device]}
+    with tempfile.TemporaryDirectory() as made:
+        known["csv"] = os.path.join(made, "rows.csv")
+        return run_command([word.format(**known) for word in command.format(**known).split()] + words, name, device, args, folder, known["csv"])
+
+
+def run_command(command, name, device, args, folder, csv):
+    """What measure() does with a command, which may write its rows to `csv`."""
+    file, words = BENCHMARKS[name][0], command[1:]
     env = dict(os.environ, LSDCD_BUILD=os.path.abspath(args.build))
     threads = "1" if device == "cpu" and name in ON_ONE_CORE else str(os.cpu_count() or 1)
     if name in ON_ONE_CORE:
@@ -75,9 +92,26 @@ def measure(name, device, args, words, folder):
     done = subprocess.run(command, env=env, stdout=subprocess.PIPE, text=True)
     print(done.stdout, flush=True)
     if done.returncode == 0:
-        for path in rows.keep(folder, file, done.stdout, device):
+        text = pathlib.Path(csv).read_text() if os.path.exists(csv) else done.stdout
+        for path in rows.keep(folder, file, text, device):
             print("rows are in", path, file=sys.stderr)
     return done.returncode
+
+
+def measure_all(devices_of, args, words, folder):
+    """Runs all benchmarks, however one of them ends; whether all gave their rows."""
+    told = []
+    for name in BENCHMARKS:
+        for device in devices_of(name):
+            begin = time.monotonic()
+            status = measure(name, device, args, words, folder)
+            told.append((name, device, status, time.monotonic() - begin))
+    print("\nbenchmark        device  minutes", file=sys.stderr)
+    for name, device, status, seconds in told:
+        print(f"{name:16} {device:6} {seconds / 60:8.1f}" + (f"  NOT MEASURED: it ended with {status}, see above" if status else ""), file=sys.stderr)
+    if args.keep:
+        subprocess.run([sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "pages.py"), "--plots"], check=True)
+    return all(status == 0 for _, _, status, _ in told)
 
 
 def main():
@@ -96,16 +130,19 @@ def main():
     if not names and {"--help", "-h"} & set(rest):
         parser.print_help()
         return 0
-    unknown = [name for name in names if name not in BENCHMARKS]
+    unknown = [name for name in names if name not in BENCHMARKS and names != ["all"]]
     if unknown:
         print(f"no benchmark '{unknown[0]}'; there are:\n{listed()}", file=sys.stderr)
         return 2
     args.commit = args.commit or rows.commit()
     folder = args.rows_to or (rows.DATA if args.keep else os.path.join(args.build, "bench"))
+
+    def devices_of(name):
+        return [d for d in BENCHMARKS[name][1] if args.only == d or (args.only is None and (d == "cpu" or has_gpu()))]
+    if names == ["all"]:
+        return 0 if measure_all(devices_of, args, rest, folder) else 1
     for name in names or DEFAULT:
-        for device in BENCHMARKS[name][1]:
-            if args.only not in (None, device) or (device == "cuda" and args.only is None and not has_gpu()):
-                continue
+        for device in devices_of(name):
             status = measure(name, device, args, rest, folder)
             if status != 0 or "--help" in rest:
                 return status
