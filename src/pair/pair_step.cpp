@@ -26,8 +26,8 @@ constexpr Lane kNothing = {};
 // lanes of most laws, and few enough for caches.
 constexpr int kFindAtOnce = 4 * kLanes, kMostWaitOfLaw = 4 * kLanes, kMostWait = 128 * kLanes;
 
-// While it lives, no operation without a result sends a signal, which a host may have asked for. Vectors do in vain what a branch
-// would leave out, such as the root of a negative number.
+// While it lives, floating-point traps that the host has switched on are off: lanes without a pair may take the root of a negative number, whose
+// result nobody reads.
 class NoSignals {
  public:
 #if defined(__GLIBC__)
@@ -143,7 +143,7 @@ class PairStep {
   }
 
   // Append the pairs of a row that touch to those that are found, and return how many these are. The row's first pair has the
-  // number `start` in the list. A branch would often be foreseen wrongly.
+  // number `start` in the list. There is no branch, because it would often be predicted wrongly.
   int find_touching(int i, std::size_t start)
   {
     const int *const neighbours = job_.list.row[i];

@@ -62,7 +62,7 @@ class Wall {
   Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backend,
        const std::string &material, const StepClock &clock, const HostSpheres &there = {});
 
-  // The following functions are local.
+  // spec() to bytes() are local.
   const WallSpec &spec() const { return spec_; }    // pressures are forces per area
   const LawTable &laws() const { return laws_; }
   const std::deque<MeshPart> &meshes() const { return meshes_; }
@@ -75,8 +75,8 @@ class Wall {
   // Prepares for a run; called before each one. `virial`: add_virial() may be called in that run.
   void begin_run(std::int64_t step, bool virial);
 
-  // Begins a step: advances the clock, moves the meshes, and rebuilds grids that no longer fit. If spheres are in the memory of a GPU, the
-  // data that the step reads must be complete once the work that is in the host's stream now is done. If there are several processes and
+  // Begins a step: advances the clock, moves the meshes, and rebuilds grids that no longer fit. If spheres are in the memory of a GPU, work that
+  // is in the host's stream now may still write their arrays: the step waits for that, but for nothing that comes into the stream later. If there are several processes and
   // one of them fails, finish() throws its error later, after all processes have reached it.
   void begin(const HostSpheres &spheres, const StepInput &input);
   // Moves the vertices of meshes that change by themselves, as by wear, if this is due in this step. A host that reads the surface before
@@ -253,13 +253,15 @@ class Wall {
   StepClock clock_;
   Real pressure_unit_;             // of inputs
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
-  // Lists of meshes, in the order of the meshes. A mesh that has nothing to do in a step is in none. In the order of the members: those
-  // that are, or may be, away from where their file has them; of these and of those whose surface varies, the ones that may move in the
-  // next step; those that change their shape; those that are bodies; those with a servo; those whose loads are recorded; those with nodes
-  // that move, which stay the same.
-  std::vector<MeshPart *> placed_, moving_, changing_, bodies_, servos_, recorded_,
-      with_energy_records_;
-  std::vector<MeshNodes *> with_nodes_;
+  // Lists of meshes, in the order of the meshes. A mesh that has nothing to do in a step is in none.
+  std::vector<MeshPart *> placed_;      // that are, or may be, away from where their file has them
+  std::vector<MeshPart *> moving_;      // that may move, or whose surface may, in the next step
+  std::vector<MeshPart *> changing_;    // that change their shape
+  std::vector<MeshPart *> bodies_, servos_;
+  std::vector<MeshPart *> recorded_;    // whose loads are recorded
+  std::vector<MeshPart *>
+      with_energy_records_;                // whose energy and impacts are recorded by triangle
+  std::vector<MeshNodes *> with_nodes_;    // whose nodes move; always the same meshes
   EngineInput engine_input_;
   BodyCoats coats_;
   DeviceChoice device_;

@@ -89,7 +89,7 @@ class EngineOn : public WallEngine {
       make_room(spheres, broad_phase_.choose(b_, spheres, margin, counts_, springs_.count(),
                                              law_.traits.energy ? &last : nullptr));
       if (mirror_) mirror_->make_room(b_, broad_phase_, spheres.n);
-      // A spring on a mesh of which its sphere is no candidate is useless, and would be read as one on another mesh.
+      // Drops springs on meshes that the sphere is no candidate of: they would be taken for those of another mesh.
       if (broad_phase_.uses_slots())
         springs_.forget_others(broad_phase_.slots().n_spheres(), broad_phase_.slots().meshes_of());
       if (watch) broad_phase_.store_positions(b_, spheres, margin);
@@ -317,7 +317,7 @@ class EngineOn : public WallEngine {
       run_slots(job);
     else
       run_law(job, n, law_of(0, 0));
-    // In a setup that stores what contacts keep, springs stay as they are.
+    // A setup that stores swaps the pools, too, with springs whose values have not changed.
     if (job.settings.stores) springs_.swap();
     if (step_.totals && !B::kOnCpu) results.start_sums(b_);
   }

@@ -143,7 +143,7 @@ class ResultsOn : public StepResults {
 
   const Array<int> &n_contacts() const { return n_contacts_; }
 
-  // Copies to the CPU what the step's settings ask for. `contacts`: with gaps.
+  // Copies to the CPU what the step's settings ask for. `contacts`: the pool, in which places between the contacts of a sphere and those of the next one are not written.
   void fetch(B &b, const StepContact *contacts)
   {
     touching_.clear();
@@ -164,7 +164,7 @@ class ResultsOn : public StepResults {
     fetch_ended(b);
   }
 
-  // Returns the contacts of the last step in memory of the backend. `contacts`: with gaps.
+  // Returns the contacts of the last step in memory of the backend. `contacts`: the pool, in which places between the contacts of a sphere and those of the next one are not written.
   NodeContacts node_contacts(const StepContact *contacts, int mesh, const MeshFeaturesView &wall,
                              const Vec3 *velocity) const
   {

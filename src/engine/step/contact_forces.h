@@ -235,8 +235,8 @@ LSDCD_FN bool may_have_moved(const Transfer &in)
   return in.from >= 0 && in.part > kMoved;
 }
 
-// Returns the part of the velocity that belongs to the last step's contact from which the only contact of a sphere has moved, if it has
-// moved. `v`: velocity of the centre relative to the wall.
+// Returns, where the only contact of a sphere has come here from another feature, the part of the velocity along the normal of the last step,
+// which begins no impact. `v`: velocity of the centre relative to the wall.
 template <class Springs>
 LSDCD_FN TakenAway taken_by_last_contact(const Transfer &in, const Springs &springs, const Vec3 &v,
                                          Real overlap)
