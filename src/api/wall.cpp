@@ -161,12 +161,22 @@ int lsdcd_wall_get_outputs(lsdcd_wall *wall, int mesh, const char *names, double
     if (all.size() != n)
       throw ApiError(LSDCD_ERROR_ARGUMENT, "n is " + std::to_string(n) + ", but names has " +
                                                counted(all.size(), "word"));
-    for (const std::string &name : all)
-      if (!is_output(name))
+    struct Place {
+      const WallOutput *output;
+      int d;
+    };
+    std::vector<Place> places;
+    for (const std::string &name : all) {
+      Place place;
+      place.output = find_output(name, place.d);
+      if (!place.output)
         throw ApiError(LSDCD_ERROR_ARGUMENT, "names: " + why_no_output(wall->in->spec(), name));
+      places.push_back(place);
+    }
     tell_late(*wall);
     std::vector<Real> numbers;
-    for (const std::string &name : all) numbers.push_back(output_by_name(*wall->in, mesh, name));
+    for (const Place &place : places)
+      numbers.push_back(output_value(*wall->in, mesh, *place.output, place.d));
     std::copy(numbers.begin(), numbers.end(), to);
   });
 }

@@ -77,9 +77,9 @@ ComputeCollideLsdcd::ComputeCollideLsdcd(LAMMPS *lmp, int narg, char **arg) :
 
   scalar_flag = vector_flag = array_flag = 1;
   extscalar = extvector = extarray = 0;
-  size_vector = 3;
+  size_vector = lsdcd::n_elements(lsdcd::collide_outputs()) - 1;
   size_array_rows = static_cast<int>(bodies.size());
-  size_array_cols = 2;
+  size_array_cols = lsdcd::n_elements(lsdcd::collide_outputs_by_body());
   vector = new double[size_vector];
   memory->create(array, size_array_rows, size_array_cols, "lsdcd/collide:array");
   run_core([&] {

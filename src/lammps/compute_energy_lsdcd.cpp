@@ -26,7 +26,6 @@ using lsdcd::EnergyRow;
 
 namespace {
 
-constexpr int kNumbers = 22;
 constexpr double kOfSphere = 0.4, kOfDisc = 0.5;    // moments of inertia over m r^2
 
 // What fix nve/sphere does not tell: the moment of inertia with which it turns grains, over m r^2.
@@ -69,8 +68,8 @@ ComputeEnergyLsdcd::ComputeEnergyLsdcd(LAMMPS *lmp, int narg, char **arg) :
 
   scalar_flag = vector_flag = 1;
   extscalar = extvector = 1;
-  size_vector = kNumbers;
-  vector = new double[kNumbers];
+  size_vector = lsdcd::n_elements(lsdcd::energy_outputs()) - 1;
+  vector = new double[size_vector];
   run_core([&] {
     if (narg > 3)
       variables.make(words_of(arg + 3, arg + narg),
@@ -193,7 +192,7 @@ double ComputeEnergyLsdcd::compute_scalar()
   invoked_scalar = update->ntimestep;
   const bool has_vector = (invoked_flag & INVOKED_VECTOR) && invoked_vector == update->ntimestep;
   if (!has_vector) compute_vector();
-  const double *const of = vector + kNumbers - 5;
+  const double *const of = vector + size_vector - 5;
   scalar = of[0] + of[1] + of[2] + of[3] - of[4];
   return scalar;
 }

@@ -148,7 +148,7 @@ FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
   time_depend = 1;
   restart_global = 1;
   vector_flag = 1;
-  size_vector = 7;
+  size_vector = lsdcd::n_elements(lsdcd::insertion_outputs());
   extvector = 0;
   global_freq = 1;
   dynamic_group_allow = 1;

@@ -117,7 +117,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   if (spec().each_contact) {
     local_flag = 1;
     size_local_rows = 0;
-    size_local_cols = spec().energy ? 20 : 9;
+    size_local_cols = lsdcd::n_elements(lsdcd::each_contact_outputs(spec().energy));
     local_freq = 1;
   }
 

@@ -7,12 +7,6 @@
 
 namespace lsdcd {
 
-namespace {
-
-const char *const kCauseNames = "damping slider rolling twisting adhesion";
-
-}    // namespace
-
 std::string output_name(const OutputRow &row, int d)
 {
   std::istringstream components(row.components);
@@ -29,6 +23,13 @@ std::vector<NamedElement> named_elements(const std::vector<OutputRow> &rows, boo
       all.push_back({output_name(row, d), static_cast<int>(all.size())});
   if (with_scalar) all.back().column = NamedElement::kScalar;
   return all;
+}
+
+int n_elements(const std::vector<OutputRow> &rows)
+{
+  int n = 0;
+  for (const OutputRow &row : rows) n += row.n;
+  return n;
 }
 
 const std::vector<OutputRow> &massflow_outputs()
@@ -77,7 +78,7 @@ const std::vector<OutputRow> &energy_outputs()
        "twisting, adhesion",
        "energy/time"},
       {5, "dissipated", kCauseNames, "likewise energy since the beginning", "energy"},
-      {4, "lost", "lever_arms stiffness turned_springs inserted",
+      {4, "lost", kOtherLossNames,
        "energy that is lost by lever arms, stiffness, turned springs, and with contacts that are "
        "inserted and deleted",
        "energy"},
@@ -117,21 +118,21 @@ const std::vector<OutputRow> &collide_outputs_by_body()
   return all;
 }
 
-const std::vector<OutputRow> &contact_outputs()
+std::vector<OutputRow> contact_outputs(bool heat)
 {
-  static const std::vector<OutputRow> all = {
+  std::vector<OutputRow> all = {
       {1, "contacts", "", "number of contacts that carry a force", ""},
       {3, "force", "x y z", "force on the atom, x y z", "force"},
       {3, "point", "x y z", "contact point, x y z, the mean weighted by normal forces", "distance"},
       {1, "radius", "", "radius of the atom, of an ellipsoid that of the sphere around it",
-       "distance"},
-      {1, "heat", "", "with *heat*: heat that flows into the atom", "power"}};
+       "distance"}};
+  if (heat) all.push_back({1, "heat", "", "with *heat*: heat that flows into the atom", "power"});
   return all;
 }
 
-const std::vector<OutputRow> &each_contact_outputs()
+std::vector<OutputRow> each_contact_outputs(bool energy)
 {
-  static const std::vector<OutputRow> all = {
+  std::vector<OutputRow> all = {
       {1, "atom", "", "ID of the atom", ""},
       {1, "mesh", "", "number of the mesh, from 1", ""},
       {3, "force", "x y z", "force on the atom, x y z", "force"},
@@ -139,14 +140,17 @@ const std::vector<OutputRow> &each_contact_outputs()
        "contact point, x y z: the point of the mesh that is closest to the atom there, or deepest "
        "in an ellipsoid",
        "distance"},
-      {1, "overlap", "", "overlap", "distance"},
-      {5, "dissipated_power", kCauseNames,
-       "with *energy*: power that the contact dissipates by damping, slider, rolling, twisting, "
-       "adhesion",
-       "power"},
-      {5, "dissipated", kCauseNames, "energy that it has dissipated since it began, likewise",
-       "energy"},
-      {1, "has_ended", "", "1 in the step in which it has ended, else 0", ""}};
+      {1, "overlap", "", "overlap", "distance"}};
+  if (energy)
+    all.insert(
+        all.end(),
+        {{5, "dissipated_power", kCauseNames,
+          "with *energy*: power that the contact dissipates by damping, slider, rolling, twisting, "
+          "adhesion",
+          "power"},
+         {5, "dissipated", kCauseNames, "energy that it has dissipated since it began, likewise",
+          "energy"},
+         {1, "has_ended", "", "1 in the step in which it has ended, else 0", ""}});
   return all;
 }
 

@@ -283,7 +283,6 @@ const std::vector<WallOutput> &wall_outputs()
   using T = MeshTotals;
   const bool adds_up = true, is_one = false;
   const char *const xyz = "x y z", *const wxyz = "w x y z", *const one = "";
-  const char *const causes = "damping slider rolling twisting adhesion";
   static const std::vector<WallOutput> all = {
       {{3, "force", xyz, "force on the mesh, x y z", "force units"},
        adds_up,
@@ -436,19 +435,19 @@ const std::vector<WallOutput> &wall_outputs()
        P::motion,
        orientation,
        nullptr},
-      {{5, "dissipated_power", causes,
+      {{5, "dissipated_power", kCauseNames,
         "power that contacts dissipate in the step: damping, slider, rolling, twisting, adhesion",
         "energy/time units"},
        adds_up,
        P::energy,
        energy_of<dissipated_power>,
        energy_of_all<dissipated_power>},
-      {{5, "dissipated", causes, "likewise energy since the beginning", "energy units"},
+      {{5, "dissipated", kCauseNames, "likewise energy since the beginning", "energy units"},
        adds_up,
        P::energy,
        energy_of<dissipated>,
        energy_of_all<dissipated>},
-      {{4, "lost", "lever_arms stiffness turned_springs inserted",
+      {{4, "lost", kOtherLossNames,
         "energy that is lost by lever arms, stiffness, turned springs, and with contacts that are "
         "inserted and deleted",
         "energy units"},
@@ -539,27 +538,12 @@ Real output_of(Wall &wall, int mesh, int column)
   return output_value(wall, mesh, *output, column);
 }
 
-// Returns the row of the number that has a name, and its place there; null: there is none.
-static const WallOutput *find_output(const std::string &name, int &d)
+const WallOutput *find_output(const std::string &name, int &d)
 {
   for (const WallOutput &output : wall_outputs())
     for (d = 0; d < output.row.n; d++)
       if (output_name(output.row, d) == name) return &output;
   return nullptr;
-}
-
-bool is_output(const std::string &name)
-{
-  int d;
-  return find_output(name, d);
-}
-
-Real output_by_name(Wall &wall, int mesh, const std::string &name)
-{
-  int d;
-  const WallOutput *const output = find_output(name, d);
-  if (!output) throw InputError(why_no_output(wall.spec(), name));
-  return output_value(wall, mesh, *output, d);
 }
 
 std::vector<NamedElement> named_outputs(const WallSpec &wall)

@@ -95,6 +95,7 @@ def test_go_with_the_fix(folder):
     ("names w", "PREFIX and NAME are missing"),
     ("names w-1 power", "the prefix 'w-1' cannot begin the name of a variable"),
     ("names taken power", "there is a variable 'taken_power' already"),
+    ("names taken force_z power", "there is a variable 'taken_power' already"),
     ("mesh lit names w power", "or its name, not 'lit': the nearest is 'lid'"),
     ("mesh 4 names w power", "from 1 to 3, or its name, not '4'"),
     ("mesh 2 names w elastic_energy", "'elastic_energy' is of all meshes together"),
@@ -102,13 +103,6 @@ def test_go_with_the_fix(folder):
 def test_refused(folder, words, says):
     meshes(folder)
     lmp.refused(words, TABLE + "variable taken_power equal 1\nfix_modify w " + words + "\n", folder, says)
-
-
-def test_none_made_where_one_is_refused(folder):
-    """LAMMPS goes on after an error only where a program drives it; so this looks at a refusal of the second of two names by the order of checks."""
-    meshes(folder)
-    lmp.refused("a later name", TABLE + "variable w_force_z equal 1\nfix_modify w names w power force_z\n", folder,
-                "there is a variable 'w_force_z' already")
 
 
 @pytest.mark.parametrize("name, says", (("2", "the name of a mesh is no number"), ("lid", "meshes 2 and 3 have the same name 'lid'")))

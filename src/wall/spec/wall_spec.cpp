@@ -3,6 +3,8 @@
 
 #include "wall/spec/wall_spec.h"
 
+#include "output/output_row.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -54,6 +56,11 @@ bool MeshSpec::surface_varies() const
 {
   return std::any_of(std::begin(surface_input), std::end(surface_input),
                      [](int input) { return input != kNoInput; });
+}
+
+int WallSpec::contact_columns() const
+{
+  return contacts ? n_elements(contact_outputs(law().has_heat())) : 0;
 }
 
 bool WallSpec::has_bodies() const

@@ -112,7 +112,7 @@ struct WallSpec {
   // Returns the sub-models, which all laws have.
   const ContactLaw &law() const { return laws.front().law; }
   // Numbers of a sphere in the contacts array; 0 without it.
-  int contact_columns() const { return contacts ? 8 + law().has_heat() : 0; }
+  int contact_columns() const;
   bool wears() const { return wear.model != WearModel::none; }
   // Does wear move its vertices?
   bool recedes(const MeshSpec &mesh) const
