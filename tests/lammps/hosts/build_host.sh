@@ -264,14 +264,16 @@ if [ $precision$backend != doubleSERIAL ]; then
 fi
 if [ -n "$small" ] || [ $backend != SERIAL ]; then
   rm -f "$work"/src/pair_{born,buck,coul,lj,morse,table,yukawa,zbl,write}[._]* "$work"/src/min_{fire,hftn,quickmin,sd}.* \
-    "$work"/src/compute_{centroid,com,count,fragment,global,group,slice,property_chunk,property_grid,property_local}[._]* \
-    "$work"/src/compute_{reduce_chunk,temp_chunk,temp_region,chunk_spread_atom,pair_local}[._]* \
-    "$work"/src/{angle,bond,dihedral,improper}_{zero,write}.* "$work"/src/dump_{cfg,grid,local,xyz}[._]* \
-    "$work"/src/fix_{ave_grid,aveforce,efield,evaporate,nve_limit,nve_noforce,wall_region,wall_table}[._]* \
+    "$work"/src/compute_{centroid,com,count,fragment,global,group,property_chunk,property_grid,property_local}[._]* \
+    "$work"/src/compute_{reduce_chunk,temp_chunk,temp_region,chunk_spread_atom}[._]* \
+    "$work"/src/{angle,bond,dihedral,improper}_{zero,write}.* "$work"/src/dump_{cfg,grid,xyz}[._]* \
+    "$work"/src/fix_{ave_grid,aveforce,efield,evaporate,nve_limit,wall_region,wall_table}[._]* \
     "$work"/src/GRANULAR/{compute_fabric,fix_add_heat,fix_addtorque_atom,fix_damping_cundall,fix_settorque_atom}.* \
     "$work"/src/GRANULAR/fix_viscous_nonlinear.* "$work"/src/reset_atoms_*
 fi
-if [ -n "$small" ]; then rm -f "$work"/src/{pair_soft,compute_reduce_region,fix_ave_histo}[._]*; fi
+if [ -n "$small" ]; then
+  rm -f "$work"/src/{pair_soft,compute_reduce_region,compute_slice,compute_pair_local,fix_ave_histo,dump_local,fix_nve_noforce}[._]*
+fi
 find "$work/src/RIGID" -type f ! -name 'fix_rigid_small.*' ! -name rigid_const.h -delete
 find "$work/src/ASPHERE" -type f ! -name 'fix_nve_asphere.*' ! -name '*superellipsoid*' ! -name 'compute_erotate_*' -delete
 
