@@ -84,11 +84,11 @@ class Arm:
         (a, b), angle, axis = self.rates(self.q, self.p), self.q.sum(), np.array([0, 1, 0])
         shoulder, elbow, wrist = self.hinges()
         v = a * np.cross(axis, wrist - shoulder) + b * np.cross(axis, wrist - elbow)
-        wall.set_pose(1, wrist, (np.cos(angle / 2), 0, np.sin(angle / 2), 0), v, (a + b) * axis)
+        wall.set_pose("paddle", wrist, (np.cos(angle / 2), 0, np.sin(angle / 2), 0), v, (a + b) * axis)
 
     def moments(self, wall):
         """What the grains do to it comes out."""
-        return np.array([wall.totals(1, hinge).torque[1] for hinge in self.hinges()[:2]])
+        return np.array([wall.totals("paddle", hinge).torque[1] for hinge in self.hinges()[:2]])
 
 
 def angular_momentum(grains):
@@ -116,10 +116,9 @@ def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else "."
     seconds = float(sys.argv[2]) if len(sys.argv) > 2 else 0.4
     dt = drum.DT = float(sys.argv[3]) if len(sys.argv) > 3 else drum.DT
-    law = lsdcd.Law("hertz/history", kn=2e6, kt=1e6, gamman=1e5, gammat=5e4, xmu=0.5, dampflag=1)
-    tray = lsdcd.WallMesh(box((0, -SIZE[1] / 2, 0), SIZE * [1, 0.5, 1], 5), "tray")
-    paddle = lsdcd.WallMesh(box(-HALF, HALF, 6), "paddle", posed_by_caller=True)
-    wall, arm, grains = lsdcd.Wall(lsdcd.WallSpec(law, [tray, paddle])), Arm(), drum.Grains()
+    wall = lsdcd.Wall("hertz/history 2e6 1e6 1e5 5e4 0.5 1  mesh $tray  mesh $paddle motion caller",
+                      tray=box((0, -SIZE[1] / 2, 0), SIZE * [1, 0.5, 1], 5), paddle=box(-HALF, HALF, 6))
+    arm, grains = Arm(), drum.Grains()
     rows = np.array([(i + 0.53, j - 1.5, k + 0.53) for k in range(4) for j in range(4) for i in range(17)])
     grains.x[:] = 2.04 * drum.GRAIN * rows[:drum.N]
 
@@ -131,7 +130,7 @@ def main():
     def kick(motors, moments, ahead):
         """All of it, and what gave angular momentum about the shoulder: motor, gravity, and the tray."""
         outside = [motors[0], arm.gravity()[0], drum.GRAVITY * grains.mass @ (grains.x - SHOULDER)[:, 0],
-                   -wall.totals(0, SHOULDER).torque[1]]
+                   -wall.totals("tray", SHOULDER).torque[1]]
         grains.kick()
         arm.kick(0.5 * dt, motors, moments, ahead)
         return 0.5 * dt * sum(outside), 0.5 * dt * (sum(map(abs, outside)) + abs(moments[0]))

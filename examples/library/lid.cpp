@@ -16,16 +16,11 @@ lsdcd::Mesh square(double z)
 
 int main()
 {
-  const lsdcd::Mesh bottom = square(0), top = square(1);
-
-  lsdcd::WallMesh lid(top, "lid");
-  lid.posed_by_caller = true;
-  lid.law = lsdcd::Law::classic({"hooke/history", {2e4, 5e3, 20, lsdcd::kDerived, 0.1, 1}});
-
-  lsdcd::WallSpec spec;    // numbers: kn kt gamman gammat xmu dampflag
-  spec.law = lsdcd::Law::classic({"hooke/history", {1e4, 5e3, 20, lsdcd::kDerived, 0.5, 1}});
-  spec.meshes = {lsdcd::WallMesh(bottom, "floor"), lid};
-  lsdcd::Wall wall(spec);
+  lsdcd::Wall wall(
+      "hooke/history 1e4 5e3 20 NULL 0.5 1  mesh $floor "    // kn kt gamman gammat xmu dampflag
+      "mesh $lid  motion caller  law hooke/history 2e4 5e3 20 NULL 0.1 1",
+      {{"floor", square(0)}, {"lid", square(1)}});
+  const int lid = wall.mesh("lid");
 
   // A sphere of radius 0.5 and mass 1, between the two.
   const std::vector<double> x = {0, 0, 0.5}, v(3), omega(3), radius = {0.5}, mass = {1};
@@ -48,11 +43,11 @@ int main()
     lsdcd::Pose pose;
     pose.position = {0, 0, -k * step.dt};
     pose.velocity = {0, 0, -1};
-    wall.set_pose(1, pose);
+    wall.set_pose(lid, pose);
     std::fill(force.begin(), force.end(), 0);
     wall.step(spheres, step);
   }
-  const lsdcd_wall_totals on_lid = wall.totals(1, {0, 1, 0});    // the torque is about (0, 1, 0)
+  const lsdcd_wall_totals on_lid = wall.totals(lid, {0, 1, 0});    // the torque is about (0, 1, 0)
   std::printf("on the sphere %g, on the lid %g, about x %g\n", force[2], on_lid.force[2],
               on_lid.torque[0]);
 }

@@ -359,22 +359,19 @@ void draw(const Grains &grains, const Vehicle &vehicle, double seconds)
 int drive(double seconds, bool is_elastic)
 {
   const double damping = is_elastic ? 0 : 2000, friction = is_elastic ? 0 : kFriction;
-  lsdcd::WallSpec spec;
-  spec.law = lsdcd::Law::classic(
-      {"hooke/history",
-       {kStiffness, is_elastic ? 0 : 0.8 * kStiffness, damping, damping / 2, friction, 1.}});
-  spec.brief = true;
-  const lsdcd::Mesh of_tray = tray(), of_wheel = wheel();
-  spec.meshes = {lsdcd::WallMesh(of_tray, "tray"), lsdcd::WallMesh(of_wheel, "wheel")};
-  spec.meshes[1].posed_by_caller = true;
-  lsdcd::Wall wall(spec);
+  lsdcd::Wall wall(
+      "hooke/history $law log brief  mesh $tray  mesh $wheel motion caller",
+      {{"law", {kStiffness, is_elastic ? 0 : 0.8 * kStiffness, damping, damping / 2, friction, 1}},
+       {"tray", tray()},
+       {"wheel", wheel()}});
+  const int of_tray = wall.mesh("tray"), of_wheel = wall.mesh("wheel");
   Grains grains(is_elastic);
   Vehicle vehicle;
 
   const auto forces = [&](bool setup) {
-    wall.set_pose(1, vehicle.pose());
+    wall.set_pose(of_wheel, vehicle.pose());
     grains.push(wall, setup);
-    vehicle.set_force(wrench(wall, 1, vehicle.centre()));
+    vehicle.set_force(wrench(wall, of_wheel, vehicle.centre()));
   };
   Book book;
   double by_motor = 0, turned_over = 0;
@@ -382,9 +379,9 @@ int drive(double seconds, bool is_elastic)
   const auto kick = [&] {
     const Vec3 f(0, -kGravity * kMass, 0);
     for (const SpatialVec &given : {grains.weight(), SpatialVec(vehicle.centre() % f, f), motor,
-                                    SpatialVec(-1. * wrench(wall, 0, Vec3(0)))})
+                                    SpatialVec(-1. * wrench(wall, of_tray, Vec3(0)))})
       book.add(given, kDt / 2);
-    book.size += kDt / 2 * wrench(wall, 1, Vec3(0)).norm();
+    book.size += kDt / 2 * wrench(wall, of_wheel, Vec3(0)).norm();
     const double before = vehicle.moves()[0][2];
     grains.kick(kDt / 2);
     vehicle.kick(kDt / 2);

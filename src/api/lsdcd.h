@@ -548,6 +548,8 @@ typedef struct lsdcd_wall_options {
    * wall. */
   void *stream;
   int device;
+  const char *
+      units; /* of a wall by words: those of numbers from files of materials, "si", "cgs", "micro" or "nano"; null: "si" */
 } lsdcd_wall_options;
 
 /* Laws of atom types with a mesh. In an array all elements have the same size. */
@@ -727,6 +729,41 @@ typedef struct lsdcd_wall_spec {
  * the field that makes no sense, its value and what to give. Any. */
 LSDCD_API int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *options,
                                    lsdcd_wall **wall);
+
+/* A value of the program, which words name as $NAME. Numbers stand for as many words, with all digits; NaN is NULL. */
+enum { LSDCD_VALUE_NUMBERS = 0, LSDCD_VALUE_MESH = 1, LSDCD_VALUE_ROWS = 2, LSDCD_VALUE_TEXT = 3 };
+typedef struct lsdcd_value {
+  const char *name; /* letters, digits and _, without $ */
+  int kind;         /* LSDCD_VALUE_... */
+  const lsdcd_mesh *mesh;
+  const double *numbers; /* n of them; of rows one row behind the other */
+  size_t n;
+  int columns;      /* of rows: numbers in each, as a file of `motion table` has them */
+  const char *text; /* a single word, with its blanks: the name of a file */
+} lsdcd_value;
+/* A wall by the words that stand behind `wall/lsdcd` in a script (doc/fix_wall_lsdcd.rst), with values of the program:
+ *
+ *   "hooke/history $steel  mesh $floor  mesh $lid motion caller law hooke/history 2e4 5e3 20 NULL 0.1 1"
+ *
+ * Lines and # are as in scripts. What differs: `mesh $NAME` is a mesh of the program, called NAME where it has no keyword `name`; `motion
+ * caller` has its poses by lsdcd_wall_set_pose(), `nodes caller` its nodes by lsdcd_wall_set_nodes(); `shapes` says that grains may be no
+ * spheres; v_NAME is an input of lsdcd_wall_set_input(); device is cpu, and gravity of a body 0, where the words give none; `contacts`, `draw`
+ * and `cut` are LAMMPS's alone. `values` has n elements, each of which is named in the words. `options` may be null. LSDCD_ERROR_ARGUMENT has the
+ * word that makes no sense and what to give. Any. */
+LSDCD_API int lsdcd_wall_create(const char *words, const lsdcd_value *values, size_t n,
+                                const lsdcd_wall_options *options, lsdcd_wall **wall);
+/* Refuses what lsdcd_wall_create() would refuse of words and values, and makes nothing. It reads files of materials, and no mesh. Any. */
+LSDCD_API int lsdcd_wall_check(const char *words, const lsdcd_value *values, size_t n,
+                               const lsdcd_wall_options *options);
+/* Changes a wall by the words of fix_modify: "[mesh NAME] motion ...", "motion none", "servo ...", "servo none" or "body ..." of what is to
+ * change, from where the mesh is. LSDCD_ERROR_ARGUMENT: the wall stays as it is. Own. */
+LSDCD_API int lsdcd_wall_change(lsdcd_wall *wall, const char *words, const lsdcd_value *values,
+                                size_t n);
+/* The value of v_NAME in the words from the next step on, the same on all processes; `name` is without v_. A step whose words read one that has
+ * none is refused. Alone. Own. */
+LSDCD_API int lsdcd_wall_set_input(lsdcd_wall *wall, const char *name, double value);
+/* The number of a mesh, from 0, by its name. LSDCD_ERROR_ARGUMENT: none is called so, or several are. Alone. Own. */
+LSDCD_API int lsdcd_wall_get_mesh(lsdcd_wall *wall, const char *name, int *mesh);
 
 /* Spheres in arrays of doubles, on the device of the wall all of them. Number k of sphere i of a vector is at
  * [i * row + k]. Others than said are refused, LSDCD_ERROR_ARGUMENT, with the first one's i; and force, torque or heat

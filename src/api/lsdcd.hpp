@@ -15,6 +15,7 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -1109,9 +1110,93 @@ struct WallOptions : lsdcd_wall_options {
   WallOptions() : lsdcd_wall_options() { size = sizeof(lsdcd_wall_options); }
 };
 
+// Rows of a table of motion, one behind the other.
+struct Rows {
+  std::vector<double> numbers;
+  int columns = 0;
+};
+
+// A value that the words of a wall name as $NAME: a mesh, which must live as long as the call, or moves in; numbers, of which NaN is NULL; rows;
+// a text.
+class Value {
+ public:
+  Value(const Mesh &mesh) : kind_(LSDCD_VALUE_MESH), mesh_(mesh.get()) {}
+  Value(Mesh &&mesh) : kind_(LSDCD_VALUE_MESH), kept_(std::make_shared<Mesh>(std::move(mesh)))
+  {
+    mesh_ = kept_->get();
+  }
+  Value(double number) : Value(std::vector<double>{number}) {}
+  Value(std::initializer_list<double> numbers) : Value(std::vector<double>(numbers)) {}
+  Value(std::vector<double> numbers) : kind_(LSDCD_VALUE_NUMBERS), numbers_(std::move(numbers)) {}
+  Value(Rows rows) :
+      kind_(LSDCD_VALUE_ROWS), numbers_(std::move(rows.numbers)), columns_(rows.columns)
+  {
+  }
+  Value(std::string text) : kind_(LSDCD_VALUE_TEXT), text_(std::move(text)) {}
+  Value(const char *text) : Value(std::string(text)) {}
+
+  // With this name, for a call while both live.
+  lsdcd_value named(const std::string &name) const
+  {
+    return {name.c_str(), kind_, mesh_, numbers_.data(), numbers_.size(), columns_, text_.c_str()};
+  }
+
+ private:
+  int kind_;
+  const lsdcd_mesh *mesh_ = nullptr;
+  std::shared_ptr<Mesh> kept_;
+  std::vector<double> numbers_;
+  int columns_ = 0;
+  std::string text_;
+};
+using Values = std::vector<std::pair<std::string, Value>>;
+
+namespace c {
+inline std::vector<lsdcd_value> values_of(const Values &values)
+{
+  std::vector<lsdcd_value> all;
+  for (const auto &[name, value] : values) all.push_back(value.named(name));
+  return all;
+}
+}    // namespace c
+
 // Meshes and laws that push the spheres in arrays of the caller, of the host or a GPU (lsdcd_wall_options), step by step.
 class Wall {
  public:
+  // By the words that stand behind wall/lsdcd in a script, see lsdcd_wall_create().
+  explicit Wall(const std::string &words, const Values &values = {},
+                const lsdcd_wall_options *options = nullptr)
+  {
+    lsdcd_wall *made = nullptr;
+    const std::vector<lsdcd_value> given = c::values_of(values);
+    c::check(lsdcd_wall_create(words.c_str(), given.data(), given.size(), options, &made));
+    handle_.reset(made);
+  }
+  // Throws what Wall() would throw for these words and values, and makes nothing.
+  static void check(const std::string &words, const Values &values = {},
+                    const lsdcd_wall_options *options = nullptr)
+  {
+    const std::vector<lsdcd_value> given = c::values_of(values);
+    c::check(lsdcd_wall_check(words.c_str(), given.data(), given.size(), options));
+  }
+  // By the words of fix_modify, see lsdcd_wall_change().
+  void change(const std::string &words, const Values &values = {})
+  {
+    const std::vector<lsdcd_value> given = c::values_of(values);
+    c::check(lsdcd_wall_change(get(), words.c_str(), given.data(), given.size()));
+  }
+  // The value of v_NAME in the words, from the next step on.
+  void set_input(const std::string &name, double value)
+  {
+    c::check(lsdcd_wall_set_input(get(), name.c_str(), value));
+  }
+  // The number of a mesh, from 0.
+  int mesh(const std::string &name)
+  {
+    int number = 0;
+    c::check(lsdcd_wall_get_mesh(get(), name.c_str(), &number));
+    return number;
+  }
   explicit Wall(const WallSpec &spec, const lsdcd_wall_options *options = nullptr)
   {
     lsdcd_wall *made = nullptr;

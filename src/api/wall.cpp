@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <sstream>
@@ -100,6 +101,26 @@ void tell_late(lsdcd_wall &wall)
   wall.caller.agree(wall.late, none);
 }
 
+std::unique_ptr<lsdcd_wall> make_wall(const lsdcd_wall_options *options,
+                                      const std::function<GivenWall(lsdcd_wall &)> &given)
+{
+  lsdcd_wall_options o = {};
+  if (options) o = checked(options, "lsdcd_wall_options");
+  check_threads(o.threads);
+  const CallThreads threads(o.threads);
+  auto made = std::make_unique<lsdcd_wall>(o);
+  made->gpu = gpu_of(o);
+  made->caller.gpu = made->gpu.get();
+  const GivenWall wall = given(*made);
+  made->in = std::make_unique<Wall>(made->caller, wall.spec, WallUnits(), backend_of(o, *made),
+                                    wall.material, StepClock{o.time, 0, 0, 0});
+  made->made = made_parts(*made->in, made->caller.box());
+  note_vertices(*made);
+  made->in->begin_run(0, false);
+  made->caller.tell_what_show_threw();
+  return made;
+}
+
 }    // namespace lsdcd
 
 extern "C" {
@@ -109,21 +130,9 @@ int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *
 {
   return guard([&] {
     need(wall, "wall");
-    lsdcd_wall_options o = {};
-    if (options) o = checked(options, "lsdcd_wall_options");
-    check_threads(o.threads);
-    const CallThreads threads(o.threads);
-    auto made = std::make_unique<lsdcd_wall>(o);
-    made->gpu = gpu_of(o);
-    made->caller.gpu = made->gpu.get();
-    made->in =
-        std::make_unique<Wall>(made->caller, wall_spec_of(spec, made->gpu != nullptr), WallUnits(),
-                               backend_of(o, *made), "", StepClock{o.time, 0, 0, 0});
-    made->made = made_parts(*made->in, made->caller.box());
-    note_vertices(*made);
-    made->in->begin_run(0, false);
-    made->caller.tell_what_show_threw();
-    *wall = made.release();
+    *wall = make_wall(options, [&](lsdcd_wall &made) {
+              return GivenWall{wall_spec_of(spec, made.gpu != nullptr), ""};
+            }).release();
   });
 }
 

@@ -15,7 +15,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -89,6 +91,8 @@ struct lsdcd_wall {
   bool outside_warned = false;
   lsdcd::PosesGiven poses;
   std::vector<lsdcd::NodeRows> node_rows;    // of each mesh that deforms
+  std::vector<std::optional<lsdcd::Real>>
+      inputs;    // the values of spec().inputs, as far as they are given
   std::unique_ptr<lsdcd::Wall> in;
 
   explicit lsdcd_wall(const lsdcd_wall_options &o) : caller(o), threads(o.threads) {}
@@ -98,6 +102,15 @@ struct lsdcd_wall {
 };
 
 namespace lsdcd {
+
+// What a wall is made of.
+struct GivenWall {
+  WallSpec spec;
+  std::string material;    // the report of its materials, for the log
+};
+// Makes a wall with options of the caller, null: all defaults. `given` is asked once the wall knows its processes and its GPU.
+std::unique_ptr<lsdcd_wall> make_wall(const lsdcd_wall_options *options,
+                                      const std::function<GivenWall(lsdcd_wall &)> &given);
 
 // Throws where a step failed half-way: springs and motions may be those of that step, and forces were added.
 void check_can_go_on(const lsdcd_wall &wall);

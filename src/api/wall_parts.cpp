@@ -40,7 +40,7 @@ std::string row_of(const Values &...values)
 
 // What follows takes structs apart by the names of all their members: one that is new does not compile before it is decided
 // here whether saved data are of a wall with another one; members of WallSpec and MeshSpec are in the walk of
-// tests/library/wall_fields.py. A program's wall has no variables as inputs.
+// tests/library/wall_fields.py. Inputs are by their names (InputsText).
 
 template <class Model>
 std::string numbers_of(const Chosen<Model> &chosen)
@@ -142,6 +142,34 @@ std::string numbers_of(const Servo &servo)
   return present ? row_of(point, axis, target, max_speed, max_gain, lo, hi) : "";
 }
 
+// The names of the inputs behind some numbers, in their order.
+class InputsText {
+ public:
+  explicit InputsText(const InputNames &names) : names_(names) {}
+
+  void add(int input)
+  {
+    any_ |= input != kNoInput;
+    text_ += (text_.empty() ? "" : " ") +
+             (input == kNoInput ? "-" : "v_" + names_[static_cast<std::size_t>(input)]);
+  }
+  template <std::size_t n>
+  void add(const int (&inputs)[n])
+  {
+    for (const int input : inputs) add(input);
+  }
+  // Adds them where there is one.
+  void add_to(WallParts &parts, const std::string &of) const
+  {
+    if (any_) parts.push_back({"inputs" + of, text_});
+  }
+
+ private:
+  const InputNames &names_;
+  std::string text_;
+  bool any_ = false;
+};
+
 std::string motion_of(const MeshSpec &mesh, const InputNames &inputs)
 {
   if (mesh.has_nodes) return "nodes of the program";
@@ -199,6 +227,11 @@ void add_made(const WallSpec &wall, std::size_t k, WallParts &parts)
   parts.push_back({"surface velocity" + of, text_of(mesh.surface)});
   if (mesh.has_nodes) parts.push_back({"pressure" + of, text_of(mesh.pressure)});
   if (mesh.has_temperature) parts.push_back({"temperature" + of, text_of(mesh.temperature)});
+  InputsText inputs(wall.inputs);
+  inputs.add(mesh.surface_input);
+  inputs.add(mesh.pressure_input);
+  inputs.add(mesh.temperature_input);
+  inputs.add_to(parts, " of surface, pressure and temperature" + of);
   parts.push_back(
       {"point of the torque" + of,
        text_of(mesh.torque_about) + (mesh.torque_about_mesh ? ", which moves with it" : "")});
@@ -259,7 +292,13 @@ WallParts set_parts(const Wall &wall)
         numbers_of(spec.meshes[k].motion.terms()), parts);
     add("servo", of, servo.present ? servo_text(servo, spec.inputs) : "none", numbers_of(servo),
         parts);
-    parts.push_back({"body" + of, text_of(spec.meshes[k].body)});
+    const BodySpec &body = spec.meshes[k].body;
+    parts.push_back({"body" + of, text_of(body)});
+    InputsText inputs(spec.inputs);
+    inputs.add(body.motor_input);
+    inputs.add(body.load_input);
+    inputs.add(body.moment_input);
+    inputs.add_to(parts, " of motor, load and moment" + of);
   }
   return parts;
 }

@@ -57,6 +57,19 @@ void check_synchronous(const lsdcd_wall &wall, const lsdcd_wall_step &step)
               " is a body, which steps by velocity Verlet: integrate the spheres likewise");
 }
 
+// Throws where the words have a v_NAME that the program has given no value.
+void check_inputs(const lsdcd_wall &wall)
+{
+  const InputNames &names = wall.in->spec().inputs;
+  for (const int input : wall.in->inputs_read()) {
+    const std::size_t k = static_cast<std::size_t>(input);
+    if (k >= wall.inputs.size() || !wall.inputs[k])
+      throw ApiError(LSDCD_ERROR_ARGUMENT, "v_" + names[k] +
+                                               " has no value: give it one before the step, by "
+                                               "lsdcd_wall_set_input()");
+  }
+}
+
 StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsdcd_wall_step *step)
 {
   StepWanted want;
@@ -65,6 +78,7 @@ StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsd
   checked_flag(want.step.setup, "setup");
   checked_flag(want.step.changed, "changed");
   check_synchronous(wall, want.step);
+  check_inputs(wall);
   if (!wall.in->has_begun()) wall.in->check_start();
   if (!(want.step.dt > 0) || !std::isfinite(want.step.dt))
     throw ApiError(LSDCD_ERROR_ARGUMENT, "dt is " + number_text(want.step.dt) + ", not above 0");
@@ -168,6 +182,8 @@ void take_step(lsdcd_wall &wall, const StepWanted &want)
                 want.step.synchronous != 0};
   input.look = input.new_spheres = want.look;
   input.box_changes = wall.caller.box().any_follows();
+  for (const std::optional<Real> &value : wall.inputs) input.inputs.push_back(value.value_or(0));
+  input.inputs.resize(wall.in->spec().inputs.size());
   input.drift.kind = SphereDrift::watched;
   input.drift.distance = want.step.reach;
   wall.begun = true;

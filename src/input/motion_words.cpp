@@ -165,6 +165,11 @@ void read_shear(Tokens &w, MeshSpec &s, InputNames &inputs)
 
 void read_motion(Tokens &w, MeshSpec &s, InputNames &inputs)
 {
+  if (!w.done() && w.peek() == "caller") {    // of programs; parse_wall() refuses it in scripts
+    w.take();
+    s.motion.begin_posed();
+    return;
+  }
   s.motion.add(read_motion_term(w, inputs));
 }
 

@@ -50,7 +50,8 @@ int mesh_of(const std::vector<std::string> &arguments, const std::vector<MeshSpe
 
 }    // namespace
 
-int change_wall(Wall &wall, const std::vector<std::string> &arguments, const Step &now)
+int change_wall(Wall &wall, const std::vector<std::string> &arguments, const Step &now,
+                const ProgramWords *program)
 {
   if (arguments[0] != "mesh" && !changes(arguments[0])) return 0;
   const std::vector<MeshSpec> &meshes = wall.spec().meshes;
@@ -64,11 +65,16 @@ int change_wall(Wall &wall, const std::vector<std::string> &arguments, const Ste
     throw InputError("fix_modify mesh " + arguments[1] +
                      ": motion ..., servo ..., body ... or names ... must follow" +
                      (arguments.size() <= taken ? "" : ", not '" + arguments[taken] + "'"));
+  const MeshSpec &of = meshes[static_cast<std::size_t>(mesh)];
+  if (program && of.motion.is_posed())
+    throw InputError("mesh '" + of.name +
+                     "' has poses of the program, which alone move it: lsdcd_wall_set_pose()");
   Tokens w(arguments);
   while (w.at() < taken) w.take();
   std::vector<std::string> inputs = wall.spec().inputs;
   if (w.peek() == "motion") {
-    const RigidMotion motion = read_modified_motion(w, inputs);
+    RigidMotion motion = read_modified_motion(w, inputs);
+    if (program) program->put_into(motion);
     wall.set_inputs(inputs);
     wall.set_motion(mesh, motion, now);
   } else if (w.peek() == "body") {

@@ -82,6 +82,7 @@ std::string answer_to(const std::string &word, bool granular)
       {"on", kTypes},
       {"with", kTypes},
       {"material", "it goes with granular material FILE PARTICLE, after mesh FILE"},
+      {"shapes", "the atoms of a script say what they are: leave it out"},
       {"model", kNumbers},
       {"file", "the keyword is mesh FILE"},
       {"limitForce", "the word is limit_damping, which comes before mesh"},
@@ -119,9 +120,22 @@ std::string answer_to(const std::string &word, bool granular)
   throw InputError(wrong + "; those are " + all);
 }
 
+// Throws where a word is of LAMMPS alone.
+void refuse_of_scripts(const std::string &word)
+{
+  const struct {
+    const char *word;
+    const char *answer;
+  } rows[] = {{"contacts", "write each_contact"},
+              {"draw", "LAMMPS alone draws pictures"},
+              {"cut", "LAMMPS alone draws pictures"}};
+  for (const auto &row : rows)
+    if (word == row.word) throw InputError("'" + word + "' is a keyword of scripts: " + row.answer);
+}
+
 // A keyword of a mesh belongs to the last mesh before it. If there is one mesh, it may also stand before
 // that.
-void read_keywords(Tokens &w, WallCommand &command, bool granular)
+void read_keywords(Tokens &w, WallCommand &command, bool granular, bool of_program)
 {
   std::vector<std::string> seen, seen_of_mesh, names;
   std::string early;    // the first keyword of a mesh before any
@@ -132,6 +146,11 @@ void read_keywords(Tokens &w, WallCommand &command, bool granular)
     const std::string word = w.take();
     if (word == "material" && command.materials.are_given()) {
       read_material_of_mesh(w, meshes.size() - 1, meshes.back().file, command.materials);
+      continue;
+    }
+    if (of_program) refuse_of_scripts(word);
+    if (of_program && word == "shapes" && !command.wall.shapes) {
+      command.wall.shapes = true;
       continue;
     }
     const auto found = std::find(names.begin(), names.end(), word);
@@ -177,14 +196,46 @@ void check_names(const std::vector<MeshSpec> &meshes)
     }
 }
 
+// Throws where a script has a word of programs.
+void check_script(const WallSpec &wall)
+{
+  for (const MeshSpec &mesh : wall.meshes)
+    if (mesh.motion.is_posed())
+      throw InputError(
+          "in 'motion', caller is for a program that calls the library and has poses of its own: "
+          "in a script write motion variable, or another motion");
+}
+
+// Gives a program's wall its values. Throws where it has a word of scripts.
+void finish_program(const ProgramWall &program, WallSpec &wall)
+{
+  program.words.put_into(wall);
+  if (program.on_device && wall.device != Device::automatic)
+    throw InputError("in 'device', the arrays of the spheres say where the wall computes, which is "
+                     "the GPU: leave it out");
+  if (program.on_device && wall.shapes)
+    throw InputError("in 'shapes', grains that are no spheres have walls for arrays of the host "
+                     "alone: leave it out");
+  for (MeshSpec &mesh : wall.meshes) {
+    mesh.body.has_gravity = true;    // 0 where the words give none: a program has no fix gravity
+    if (!mesh.has_nodes) continue;
+    if (mesh.node_group != "caller")
+      throw InputError("in 'nodes', a program has no groups of atoms: write nodes caller");
+    mesh.node_group.clear();
+  }
+}
+
 }    // namespace
 
-WallCommand parse_wall(const std::vector<std::string> &arguments, const LawsOfMaterials &laws_of)
+WallCommand parse_wall(const std::vector<std::string> &arguments, const LawsOfMaterials &laws_of,
+                       const ProgramWall *program)
 {
   WallCommand command;
   WallSpec &wall = command.wall;
   Tokens w(arguments);
-  w.set_context("fix wall/lsdcd", law_syntax());
+  const char *const command_name = program ? "wall" : "fix wall/lsdcd";
+  if (program && !program->on_device) wall.device = Device::cpu;
+  w.set_context(command_name, law_syntax());
   LawOfTypes &law = wall.laws.front();
   const bool has_materials = has_material(arguments);
   if (has_materials)
@@ -192,9 +243,13 @@ WallCommand parse_wall(const std::vector<std::string> &arguments, const LawsOfMa
   else
     law.law = read_law(w, law.name, law_syntax());
   const bool granular = has_materials || !law.law.is_classic();
-  read_keywords(w, command, granular);
-  w.set_context("fix wall/lsdcd", granular ? granular_syntax() : law_syntax());
+  read_keywords(w, command, granular, program != nullptr);
+  w.set_context(command_name, granular ? granular_syntax() : law_syntax());
   if (wall.meshes[0].file.empty()) w.fail("mesh FILE is missing");
+  if (program)
+    finish_program(*program, wall);
+  else
+    check_script(wall);
   check_names(wall.meshes);
   if (has_materials) add_laws(command.materials, laws_of, wall);
   finish_laws(wall);

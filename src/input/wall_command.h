@@ -5,6 +5,7 @@
 #pragma once
 
 #include "input/material_words.h"
+#include "input/program_words.h"
 #include "output/mesh_image.h"
 #include "wall/spec/wall_spec.h"
 
@@ -28,11 +29,17 @@ struct WallCommand {
   WallMaterials materials;
 };
 
+// What a program says beside its words.
+struct ProgramWall {
+  const ProgramWords &words;    // whose values the arguments have
+  bool on_device = false;       // are its spheres in arrays of a GPU, where the wall then computes?
+};
+
 // `arguments` begin with FSTYLE. Laws have their names, NULLs resolved, and stiffnesses still in pressure units.
-// `laws_of`: gives those of materials, once all else is read. Throws InputError that names the argument, what was expected
+// `laws_of`: gives those of materials, once all else is read. `program`: null for a script. Throws InputError that names the argument, what was expected
 // and the syntax.
 WallCommand parse_wall(const std::vector<std::string> &arguments,
-                       const LawsOfMaterials &laws_of = {});
+                       const LawsOfMaterials &laws_of = {}, const ProgramWall *program = nullptr);
 
 // Returns the command with every keyword, its unit, range and default; several lines.
 std::string wall_help();

@@ -13,10 +13,8 @@ rigid bodies against a wall; and a wall that pushes spheres, step by step.
     found = body.collide(position=(0, 0, 1), quaternion=(1, 0, 0, 0))
     found.collides, found.wall, found.body                    # triangles, pair by pair
 
-    steel = lsdcd.Law("hooke/history", kn=1e5, kt=3e4, gamman=50, xmu=0.5, dampflag=1)
-    drum = lsdcd.WallMesh(lsdcd.Mesh("drum.stl"), "drum", posed_by_caller=True)
-    wall = lsdcd.Wall(lsdcd.WallSpec(steel, [drum]))
-    wall.set_pose(0, angular_velocity=(0, 1, 0))            # before each step
+    wall = lsdcd.Wall("hooke/history 1e5 3e4 50 NULL 0.5 1 mesh $drum motion caller", drum=lsdcd.Mesh("drum.stl"))
+    wall.set_pose("drum", angular_velocity=(0, 1, 0))       # before each step
     wall.step(x, v, omega, radius, mass, force, torque, dt=1e-5)    # adds to force and torque, (n, 3)
 
 Lengths are in the unit of the mesh; a wall's units are any that are consistent. A query lets other Python threads run,
@@ -46,6 +44,7 @@ from ._spec import (Law as Law, Motion as Motion, Placement as Placement, RigidB
                     SubModel as SubModel, SubModelFacts as SubModelFacts, WallMesh as WallMesh, WallSpec as WallSpec,
                     sub_models as sub_models)
 from ._spec import _motion_array
+from ._words import Values as _Values
 
 __version__: str = _lib.lsdcd_version().decode()
 
@@ -702,7 +701,12 @@ class BodyState(_Record):
 
 
 class Wall(_Owner):
-    """A wall of meshes that pushes spheres, by a WallSpec. Where a method takes a mesh, it is its number, from 0, or its name. `lo`, `hi`: the
+    """A wall of meshes that pushes spheres, by the words that stand behind `wall/lsdcd` in a script, or by a WallSpec. In words $NAME is a value of
+    yours, given by its name, or in `values`: a Mesh, numbers (None: NULL), rows of a motion table, or a text. `mesh $NAME` is called NAME; `motion
+    caller` has its poses by set_pose(), `nodes caller` its nodes by set_nodes(), v_NAME its value by set_input(); `shapes` says that grains may be no
+    spheres; a body has no gravity where the words give none. `units`: of numbers from files of materials, "si", "cgs", "micro" or "nano".
+
+    Where a method takes a mesh, it is its number, from 0, or its name. `lo`, `hi`: the
     box of the spheres' centres, None: wherever they go; `periodic`: along x, y, z, with `margin`, how far past a
     face a sphere may go before the caller puts it back. `show(text, warning)` gets each line of the log. One
     thread at a time: while a call runs, `show` and the functions of `host` cannot call the wall, nor close it.
@@ -719,12 +723,15 @@ class Wall(_Owner):
     arguments."""
     _free = _lib.lsdcd_wall_free
 
-    def __init__(self, spec: WallSpec, lo: ArrayLike | None = None, hi: ArrayLike | None = None,
+    def __init__(self, spec: WallSpec | str, lo: ArrayLike | None = None, hi: ArrayLike | None = None,
                  periodic: Sequence[bool] = (False, False, False), margin: float = 0.0, time: float = 0.0,
                  show: Callable[[str, bool], object] | None = None, threads: int = 0, host: Host | None = None,
-                 device: str = "cpu", stream: Any = None) -> None:
+                 device: str = "cpu", stream: Any = None, units: str = "si", values: Mapping[str, Any] | None = None, **named: Any) -> None:
         super().__init__()
-        self._names: list[str] = _instance(spec, WallSpec, "spec")._names()
+        # By words the library knows the names of meshes.
+        self._names: list[str] | None = None if isinstance(spec, str) else _instance(spec, WallSpec, "spec")._names()
+        if self._names is not None and (values or named):
+            raise TypeError(f"{', '.join((*(values or {}), *named))}: values go with words, not with a WallSpec")
         self._on_device = bool(_chosen("device", device, DEVICES))
         self._stream = stream    # which must live as long as the wall
         # What callbacks raised, which C cannot pass on. They know this list, not the wall, so that the wall is freed with its name.
@@ -759,12 +766,36 @@ class Wall(_Owner):
         options = _sized(_WallOptions, periodic=(_int * 3)(*(_flag(along, "periodic") for along in along_axes)), margin=margin,
                          time=time, show=self._show, threads=threads,
                          host=ctypes.addressof(self._host) if self._host else None,
-                         stream=_arrays.stream_handle(stream), device=int(self._on_device))
+                         stream=_arrays.stream_handle(stream), device=int(self._on_device), units=units)
         for name, place in (("lo", least), ("hi", most)):
             if place is not None:
                 setattr(options, name, (_real * 3)(*place))
-        self._do(_lib.lsdcd_wall_from_spec, ctypes.byref(spec._struct), ctypes.byref(options), ctypes.byref(self._handle),
-                 meshes=spec._meshes())
+        if isinstance(spec, str):
+            given = _Values({**(values or {}), **named}, Mesh)
+            self._do(_lib.lsdcd_wall_create, _c_text(spec, "the words"), given.structs, given.n, ctypes.byref(options),
+                     ctypes.byref(self._handle), meshes=given.meshes)
+        else:
+            self._do(_lib.lsdcd_wall_from_spec, ctypes.byref(spec._struct), ctypes.byref(options), ctypes.byref(self._handle),
+                     meshes=spec._meshes())
+
+    @staticmethod
+    def check(words: str, values: Mapping[str, Any] | None = None, units: str = "si", **named: Any) -> None:
+        """Raises Error for what Wall() would refuse of words and values, and makes nothing. It reads files of materials, and no mesh."""
+        given = _Values({**(values or {}), **named}, Mesh)
+        options = _sized(_WallOptions, units=units, show=_Show(0))
+        with _in_use(*given.meshes):
+            _check(_lib.lsdcd_wall_check(_c_text(words, "the words"), given.structs, given.n, ctypes.byref(options)))
+
+    def change(self, words: str, values: Mapping[str, Any] | None = None, **named: Any) -> None:
+        """Changes the wall by the words of fix_modify: "mesh lid motion ...", "motion none", "servo ...", "servo none" or "body ..." of what is to
+        change, from where the mesh is. Raises Error for others, and the wall stays as it is."""
+        given = _Values({**(values or {}), **named}, Mesh)
+        self._do(_lib.lsdcd_wall_change, self._handle, _c_text(words, "the words"), given.structs, given.n, meshes=given.meshes)
+
+    def set_input(self, name: str, value: float) -> None:
+        """The value of v_NAME in the words from the next step on, the same on all processes. Raises Error for a name that the words have not, and a
+        value that is not finite."""
+        self._do(_lib.lsdcd_wall_set_input, self._handle, _c_text(name, "name"), _c_double(value, "value"))
 
     def _do(self, call: Any, *arguments: Any, meshes: Sequence[Mesh] = ()) -> None:
         """Makes a call of the wall, which reads these meshes."""
@@ -831,6 +862,13 @@ class Wall(_Owner):
         """The number of a mesh that is given by its number or its name."""
         if not isinstance(mesh, str):
             return _c_int(mesh, "mesh")
+        if self._names is None:
+            number = _int()
+            try:
+                self._do(_lib.lsdcd_wall_get_mesh, self._handle, _c_text(mesh, "mesh"), ctypes.byref(number))
+            except Error as e:
+                raise ValueError(f"mesh is {mesh!r}: {e}") from None
+            return number.value
         if self._names.count(mesh) != 1:
             raise ValueError(f"mesh is {mesh!r}, which {'several meshes are' if mesh in self._names else 'no mesh is'} called; "
                              f"there are {', '.join(map(repr, self._names))}")

@@ -18,13 +18,13 @@ namespace {
 
 // A member of a spec by its names.
 struct Member {
-  const char *field;      // of lsdcd_wall_mesh, or of lsdcd_wall_spec
-  const char *keyword;    // null: scripts have none
+  const char *field;    // of lsdcd_wall_mesh, or of lsdcd_wall_spec
+  const char *keyword;
 };
 
 constexpr Member kMeshes = {"n_meshes", "mesh"}, kMesh = {"mesh", "mesh"}, kLaw = {"law", "law"},
                  kTypeLaws = {"type_laws", "law"}, kMotion = {"motions", "motion"},
-                 kServo = {"servo", "servo"}, kPosed = {"posed_by_caller", nullptr},
+                 kServo = {"servo", "servo"}, kPosed = {"posed_by_caller", "motion"},
                  kBody = {"body", "body"}, kCoat = {"body.coat", "body"},
                  kNodes = {"nodes_by_caller", "nodes"}, kPressure = {"pressure", "pressure"},
                  kSurface = {"surface_velocity", "surface_vel"},
@@ -117,8 +117,7 @@ const MeshRule kMeshRules[] = {
                          const std::string &text)
 {
   if (names == SpecNames::fields) throw InputError("`" + of + member.field + "`: " + text);
-  throw InputError("in '" + std::string(member.keyword ? member.keyword : member.field) + "', " +
-                   text);
+  throw InputError("in '" + std::string(member.keyword) + "', " + text);
 }
 
 class SpecCheck {

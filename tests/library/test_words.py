@@ -1,0 +1,240 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""A wall by the words of the fix: the same words make the same wall in a script and in the library, to the last bit of forces; values of the
+program in words; what is refused, with the text of the script. LSDCD_WALLS says how many random walls there are (20)."""
+import os
+import random
+import re
+import subprocess
+
+import numpy as np
+import pytest
+
+import lsdcd
+from facts import fact
+
+LMP = os.environ.get("LSDCD_LMP", "")
+needs_lmp = pytest.mark.skipif(not os.path.exists(LMP), reason="no lmp-lsdcd (LSDCD_LMP)")
+WALLS = int(os.environ.get("LSDCD_WALLS", "20"))
+STEPS, DT = 12, 1e-3
+
+FLOOR = (np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0.0]]), [[0, 1, 2], [0, 2, 3]])
+# A closed block, whose top is just below z = 0, so that it may be a body.
+BLOCK = (np.array([[x, y, z] for z in (-1, -0.015625) for y in (-2, 2.0) for x in (-2, 2.0)]),
+         [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]])
+MESHES = {"floor": FLOOR, "block": BLOCK}
+
+# Spheres of radius 0.5 and mass 1 that nothing moves: the wall comes to them.
+X = np.array([[0.3, 0.2, 0.484375], [1.5, -1, 0.46875], [-1.25, 0.75, 0.5]])
+V, OMEGA = np.array([[0.25, 0.5, -0.125]] * 3), np.array([[0.5, -0.25, 1]] * 3)
+
+LAWS = ("hooke 1000 300 20 10 0.5 1", "hooke/history 1000 300 20 NULL 0.5 1", "hertz/history 2000 600 20 10 0.3 1",
+        "granular hooke 1000 20 tangential linear_history 300 1 0.4 damping velocity",
+        "granular hertz/material 2000 0.5 0.3 tangential mindlin NULL 1 0.5 damping tsuji rolling sds 100 1 0.1 twisting marshall limit_damping",
+        "granular hertz 2000 20 tangential mindlin_rescale 1500 1 0.5 damping mass_velocity",
+        "granular dmt 2000 20 0.3 5 tangential linear_nohistory 1 0.5")
+MOTIONS = ("motion linear 0.1 -0.2 0.3", "motion wiggle 0 0.01 0.02 0.5", "motion rotate 0 0 0 0 1 0.25 3", "wiggle z 0.01 0.5",
+           "motion transrot 0 0 0.1 1 0 0 0 1 0 5 motion linear 0.01 0 0", "motion riggle 0 0 0 0 0 1 5 2",
+           "motion table lever.txt axis 1 0 0 0 1 0 repeat", "servo force z 25 vmax 0.5 limits -0.1 0.2", "servo torque y through 0 0 0 3 vmax 2",
+           "surface_vel 1 0 0.5 surface_angvel 0 0 0.5 1 2 0", "shear x 0.5", "scale 1.25", "rotate 0 0.1 1 30 move 0 0 0.01", "torque_about 1 2 3",
+           "law types 2* ", "")
+BODIES = ("body density 2 joint hinge 0 0 0 0 1 0 motor 0.5", "body mass 3 com 0 0 0 inertia 2 2.5 3 0 0 0.1 velocity 0 0 0.5 omega 0.1 0.2 0",
+          "body density 1 joint slider 0 0 1 spring 100 1 limits -0.5 0.5 load 0 0 3", "body density 1 joint ball 0 0 0 moment 0.1 0 0")
+OF_WALL = ("corner sum", "grid 0.5", "rmax 0.75", "energy", "impacts 1e-3", "average 3", "wear archard 1e-3 1e3", "wear finnie 1e-6")
+
+
+def random_words(pick):
+    """Words of a wall of one to three meshes. Laws of types have the sub-models of the wall, with other numbers."""
+    law = pick.choice(LAWS)
+    words = [law]
+    for k in range(pick.randint(1, 3)):
+        file = pick.choice(list(MESHES))
+        words += [f"mesh {file}.stl", f"name part{k}"]
+        if file == "block" and pick.random() < 0.5:
+            words.append(pick.choice(BODIES))
+            continue
+        motion = pick.choice(MOTIONS)
+        words.append(motion + law.replace("1000 ", "1500 ").replace("2000 ", "2500 ").replace(" limit_damping", "") if motion.startswith("law") else motion)
+    some = pick.sample(OF_WALL, pick.randint(0, 4))
+    return " ".join(words + some)
+
+
+def is_a_wall(words):
+    """Whether its words are: one mesh is not twice at one place, nothing wears by two laws."""
+    try:
+        lsdcd.Wall.check(words)
+    except lsdcd.Error:
+        return False
+    return True
+
+
+def forces_by_library(words, values=None, **named):
+    wall, n = lsdcd.Wall(words, values=values, **named), len(X)
+    force, torque = np.zeros((n, 3)), np.zeros((n, 3))
+    for k in range(STEPS + 1):
+        force[:] = torque[:] = 0
+        wall.step(X, V, OMEGA, np.full(n, 0.5), np.ones(n), force, torque, DT, setup=k == 0, type=np.array([1, 2, 1], np.int32))
+    return np.hstack([force, torque])
+
+
+def write_meshes(folder):
+    for name, (vertices, faces) in MESHES.items():
+        with open(os.path.join(folder, f"{name}.stl"), "w", encoding="ascii") as f:
+            f.write("solid mesh\n")
+            for face in faces:
+                f.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.17g %.17g %.17g\n" % tuple(vertices[k]) for k in face) + "endloop\nendfacet\n")
+            f.write("endsolid mesh\n")
+    with open(os.path.join(folder, "lever.txt"), "w", encoding="ascii") as f:
+        f.write("0 0\n0.5 0.3\n1 0\n")
+
+
+BEGIN = """clear
+units si
+atom_style sphere
+atom_modify map yes sort 0 0
+boundary f f f
+region box block -10 10 -10 10 -10 10
+create_box 2 box
+""" + "".join(f"create_atoms {t} single {' '.join(map(repr, x.tolist()))} units box\n" for t, x in zip((1, 2, 1), X)) + f"""\
+set group all diameter 1
+set group all mass 1
+set group all omega {' '.join(map(str, OMEGA[0]))}
+velocity all set {' '.join(map(str, V[0]))}
+pair_style zero 1.1
+pair_coeff * *
+comm_modify vel yes
+timestep {DT}
+"""
+
+
+def run(folder, script):
+    with open(os.path.join(folder, "in.script"), "w", encoding="utf-8") as f:
+        f.write(script)
+    return subprocess.run([LMP, "-in", "in.script", "-log", "none"], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+
+
+@needs_lmp
+def test_random_walls(folder, monkeypatch):
+    """The same words in LAMMPS, in the library with files, and in the library with meshes of the program."""
+    pick = random.Random(4711)
+    walls = [words for words in (random_words(pick) for _ in range(2 * WALLS)) if is_a_wall(words)][:WALLS]
+    write_meshes(folder)
+    done = run(folder, "".join(f"{BEGIN}fix wall all wall/lsdcd {words} device cpu\nrun {STEPS}\n"
+                               f"write_dump all custom {k}.dump id fx fy fz tqx tqy tqz modify sort id format float %.17g\n"
+                               for k, words in enumerate(walls)))
+    assert done.returncode == 0, done.stdout[-3000:]
+    monkeypatch.chdir(folder)
+    values = {name: lsdcd.Mesh(*mesh) for name, mesh in MESHES.items()} | {"lever": [[0, 0], [0.5, 0.3], [1, 0]]}
+    for k, words in enumerate(walls):
+        wanted = np.loadtxt(f"{k}.dump", skiprows=9, ndmin=2)[:, 1:]
+        found = forces_by_library(words)
+        fact(f"wall {k}: the bits of the script", (found == wanted).all(), (words, found - wanted))
+        with_values = re.sub(r"(mesh|table) (\w+)[.](stl|txt)", r"\1 $\2", words)
+        used = {name: value for name, value in values.items() if f"${name}" in with_values}
+        found = forces_by_library(with_values, used)
+        fact(f"wall {k}: with values of the program", (found == wanted).all(), (with_values, found - wanted))
+    fact("forces act", sum(np.loadtxt(f"{k}.dump", skiprows=9)[:, 3].any() for k in range(len(walls))) > len(walls) / 2 > WALLS / 3)
+
+
+STYLE = "hooke/history 1000 300 20 NULL 0.5 1"
+
+
+@needs_lmp
+@pytest.mark.parametrize("words", ("mesh", "mesh floor.stl mesh", "mesh floor.stl sacle 2", "mesh floor.stl scale 0", "mesh floor.stl motion linear 1 0",
+                                   "mesh floor.stl motion slide 1", "mesh floor.stl corner round", "mesh floor.stl wear archard 1", "mesh floor.stl nearest 0",
+                                   "mesh floor.stl body density 1 joint hinge 0 0 0 0 0 0", "mesh floor.stl name 3", "mesh floor.stl temperature 300",
+                                   "mesh floor.stl wear_factor 2", "mesh floor.stl servo force z 1", "mesh floor.stl scale 1 scale x", "mesh floor.stl energy energy",
+                                   "mesh floor.stl motion rotate 0 0 0 0 0 0 1", "mesh floor.stl law hooke 1", "mesh floor.stl friction_heat 2"))
+def test_refused_as_in_a_script(folder, words):
+    """The text of the error is the script's, but for the name of the command."""
+    write_meshes(folder)
+    done = run(folder, f"{BEGIN}fix wall all wall/lsdcd {STYLE} {words}\n")
+    said = re.search(r"^ERROR: Fix wall wall/lsdcd: (.*?)(?: \([^() ]*\.cpp:\d+\))?$", done.stdout, re.M)
+    with pytest.raises(lsdcd.Error) as refused:
+        lsdcd.Wall.check(f"{STYLE} {words}")
+    fact("the text of the script", said and said[1].replace("fix wall/lsdcd", "wall") == str(refused.value), (done.stdout[-400:], str(refused.value)))
+    with pytest.raises(lsdcd.Error) as refused_by_wall:
+        lsdcd.Wall(f"{STYLE} {words}")
+    fact("the check's is the wall's", str(refused_by_wall.value) == str(refused.value), str(refused_by_wall.value))
+
+
+MESH = lsdcd.Mesh(*FLOOR)
+
+
+@pytest.mark.parametrize("words, values, says", (
+    (f"{STYLE} mesh $flor", {"floor": MESH}, r"'\$flor': there is no value of this name: the nearest is 'floor'"),
+    (f"{STYLE} mesh $floor", {"floor": MESH, "lid": MESH}, r"the value 'lid' is given, and no word is \$lid"),
+    (f"{STYLE} mesh x$floor", {"floor": MESH}, r"'x\$floor': \$NAME is a word of its own"),
+    (f"{STYLE} mesh $floor", {"floor": [[0, 0], [1, 1]]}, r"in 'mesh', \$floor is no mesh"),
+    (f"{STYLE} mesh floor.stl cache $floor", {"floor": MESH}, r"'\$floor' is a mesh or rows, which stand behind 'mesh' or 'motion table' alone"),
+    (f"{STYLE} mesh $floor weld 0.1", {"floor": MESH}, r"in 'weld', the mesh \$floor was welded when it was made"),
+    (f"{STYLE} mesh $floor motion table $floor", {"floor": MESH}, r"in 'motion', \$floor has no rows"),
+    (f"{STYLE} mesh $floor motion table $rows", {"floor": MESH, "rows": [[0, 0, 0, 0], [0, 1, 1, 1]]}, r"in 'motion', row 2 of \$rows: .*times must ascend"),
+    (f"{STYLE} mesh $floor nodes group", {"floor": MESH}, "in 'nodes', a program has no groups of atoms: write nodes caller"),
+    (f"{STYLE} mesh $floor contacts", {"floor": MESH}, "'contacts' is a keyword of scripts: write each_contact"),
+    (f"{STYLE} mesh $floor motion caller motion linear 0 0 1", {"floor": MESH}, "in 'motion', the poses of the program alone move such a mesh"),
+    (f"{STYLE} mesh $floor mesh_stl $file every 5", {"floor": MESH, "file": "a.obj"}, "a.obj"),
+    (f"{STYLE} mesh $floor mesh $floor name lid", {"floor": MESH}, "in 'mesh', of mesh 2 'lid': it is that of mesh 1 'floor' at the same place"),
+    ("hooke/history $law mesh $floor", {"floor": MESH, "law": [1000, float("inf"), 20, None, 0.5, 1]}, "the value 'law': number 2 is inf, not finite")))
+def test_values_refused(words, values, says):
+    with pytest.raises(lsdcd.Error, match=says):
+        lsdcd.Wall(words, values=values)
+
+
+def test_values_of_python(folder):
+    """Numbers of numpy's types, NULL, text with blanks, words over lines; a mesh is called by its value."""
+    law = np.array([1000, 300, 20, np.nan, 0.5, 1], np.float32)
+    by_text = forces_by_library(f"{STYLE} mesh $floor", floor=MESH)
+    by_value = forces_by_library("""hooke/history $law    # numbers
+                                 mesh $floor &
+                                 mesh_stl $file every 1000""", floor=MESH, law=law.tolist(), file=str(folder / "a file.stl"))
+    fact("the same", (by_text == by_value).all() and by_text[:, 2].any(), by_text - by_value)
+    fact("as float32", (forces_by_library("hooke/history $law mesh $floor", floor=MESH, law=law) == by_text).all())
+    with pytest.raises(TypeError, match="law is .*: give a Mesh, numbers"):
+        lsdcd.Wall("hooke $law mesh $floor", floor=MESH, law={"kn": 1})
+    with pytest.raises(ValueError, match="mesh is 'flor': no mesh is called 'flor': the nearest is 'floor'"):
+        lsdcd.Wall(f"{STYLE} mesh $floor", floor=MESH).pose("flor")
+
+
+def test_inputs_and_changes():
+    """v_NAME is what set_input() says, in each step; a step before that is refused; words of fix_modify change a mesh."""
+    wall, n = lsdcd.Wall(f"{STYLE} mesh $floor surface_vel v_speed 0 0 mesh $lid move 0 0 5", floor=MESH, lid=MESH), len(X)
+    force, torque = np.zeros((n, 3)), np.zeros((n, 3))
+
+    def step():
+        force[:] = torque[:] = 0
+        wall.step(X, V, OMEGA, np.full(n, 0.5), np.ones(n), force, torque, DT)
+        return force.copy()
+    with pytest.raises(lsdcd.Error, match="v_speed has no value"):
+        step()
+    with pytest.raises(lsdcd.Error, match="the wall reads no v_sped: the nearest is 'speed'"):
+        wall.set_input("sped", 1)
+    wall.set_input("speed", 3)
+    by_input = step()
+    fact("as the number", (by_input == forces_of_one_step(f"{STYLE} mesh $floor surface_vel 3 0 0")).all(), by_input)
+    wall.set_input("speed", -3)
+    fact("another one in the next step", step()[0, 0] < by_input[0, 0])
+    wall.change("mesh lid motion linear 0 0 -1")
+    for _ in range(10):
+        step()
+    fact("the lid moves", abs(wall.pose("lid")[2, 3] + 10 * DT) < 1e-15, wall.pose("lid"))
+    for words, says in (("mesh ild motion none", "not 'ild': the nearest is 'lid'"), ("", "nothing is given to change"),
+                        ("mesh lid motion linear 0 0", "in 'motion'"), ("corner sum", "'corner' is not expected: write")):
+        with pytest.raises(lsdcd.Error, match=says):
+            wall.change(words)
+
+
+def forces_of_one_step(words):
+    wall, n = lsdcd.Wall(words, floor=MESH), len(X)
+    force, torque = np.zeros((n, 3)), np.zeros((n, 3))
+    wall.step(X, V, OMEGA, np.full(n, 0.5), np.ones(n), force, torque, DT)
+    return force
+
+
+def test_saved_with_inputs():
+    """A wall whose input has another name is not the same."""
+    saved = lsdcd.Wall(f"{STYLE} mesh $floor surface_vel v_speed 0 0", floor=MESH).save()
+    lsdcd.Wall(f"{STYLE} mesh $floor surface_vel v_speed 0 0", floor=MESH).restore(saved)
+    with pytest.raises(lsdcd.Error, match="inputs of surface, pressure and temperature of meshes.0. is v_other .* and was v_speed"):
+        lsdcd.Wall(f"{STYLE} mesh $floor surface_vel v_other 0 0", floor=MESH).restore(saved)
