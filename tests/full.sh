@@ -20,6 +20,9 @@ arm64_packages=(
   qemu-user                            # runs what was compiled
 )
 
+# Prints the option by which nvcc compiles fast what nothing runs, or what comes near to it before CUDA 13.
+quick_ptx() { if PATH=$PATH:/usr/local/cuda/bin nvcc --help 2>/dev/null | grep -e --Ofast-compile >/dev/null; then echo --Ofast-compile=max; else echo -Xcicc=-O1; fi; }
+
 # test_all [OPTION...]: options of ctest choose tests. Without a GPU CUDA code is for the one that
 # bench.test_kernel_sizes has sizes for, and kernels of moving walls are for a release. Nothing runs other laws there: with little
 # optimisation they compile in a third of the time.
@@ -27,7 +30,7 @@ test_all() {
   local folder=build/all kinds=() text hosts=() options=(-D LSDCD_TESTS=ON -D LSDCD_RELEASE="$whole") laws='on_wall|plain'
   need_each "${test_all_packages[@]}"
   if [ $whole = OFF ]; then laws='^plain$'; fi
-  have_gpu || options+=(-D CMAKE_CUDA_ARCHITECTURES=90 -D LSDCD_MACHINE_LAWS="$laws" -D LSDCD_PTX_OPTIONS=-Xcicc=-O1)
+  have_gpu || options+=(-D CMAKE_CUDA_ARCHITECTURES=90 -D LSDCD_MACHINE_LAWS="$laws" -D LSDCD_PTX_OPTIONS="$(quick_ptx)")
   say "configure"
   configure cuda $folder "${options[@]}" || { fail "configure"; return; }
   if wanted $folder -L host "$@"; then

@@ -78,7 +78,7 @@ def test_screw(folder):
     """A screw that a motor turns in its tube: the motor's work is the energy of the screw and what it gives to the grains."""
     angle, kinetic = "f_wall[34]", "f_wall[35]"
     contact = math.sqrt(math.pi / 6 / 2 / 5000 * (math.pi ** 2 + math.log(0.6) ** 2))
-    b = closes(folder, SCREW, contact, 8 if lmp.QUICK else 12, (angle, kinetic), law=SCREW_LAW, dir=lmp.HERE.parent.parent / "examples" / "screw")
+    b = closes(folder, SCREW, contact, 8, (angle, kinetic), law=SCREW_LAW, dir=lmp.HERE.parent.parent / "examples" / "screw")
     motor = -200 * b[angle]
     close("the motor's work", b[kinetic] + b["drive"], motor, motor, 1e-6)
 
@@ -120,7 +120,7 @@ def test_membrane(folder):
     """Balls in a box, on a membrane whose nodes make a standing wave."""
     stl.write(folder / "membrane.stl", stl.sheet(CELLS, lambda i, j: (NODES[i], NODES[j], 0)))
     stl.write(folder / "box.stl", stl.box((-0.09, -0.09, -0.09), (0.09, 0.09, 0.3)))
-    closes(folder, MEMBRANE, math.pi * math.sqrt(MASS / 2 / MILL_K), 0.4 if lmp.QUICK else 1.0, law=MILL_LAW.replace("granular ", ""))
+    closes(folder, MEMBRANE, math.pi * math.sqrt(MASS / 2 / MILL_K), 0.4, law=MILL_LAW.replace("granular ", ""))
 
 
 CASK = cask(60, 0.6, lmp.pairs("granular/lsdcd", 0.05, coeff="{law}"), "granular {law} mesh cask.stl motion rotate 0 0 0 0 1 0 8 "
@@ -131,5 +131,5 @@ def test_cask_that_wears(folder):
     """A closed cask that turns and wears: what its surface takes from contacts as it goes back is a part of the work of its drive that counts."""
     wear = "f_wall[75]"
     stl.write(folder / "cask.stl", stl.box((-1, -1, -1), (1, 1, 1), 6))
-    b = closes(folder, CASK, math.pi / math.sqrt(2e4), 2 if lmp.QUICK else 6, (wear,), law=CASK_LAW.replace("granular ", ""))
+    b = closes(folder, CASK, math.pi / math.sqrt(2e4), 2, (wear,), law=CASK_LAW.replace("granular ", ""))
     fact("wear takes more than 1 % of it", b[wear] > 0.01 * b["drive"], b[wear] / b["drive"])

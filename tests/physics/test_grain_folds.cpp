@@ -410,7 +410,7 @@ TEST(grain_folds, have_no_jumps_of_force_and_energy_up_to_the_radius_of_curvatur
 {
   expect_no_jumps(60, 20);
 }
-TEST(grain_folds, have_no_jumps_of_force_and_energy_on_4000_paths_LONG)
+TEST(grain_folds, have_no_jumps_of_force_and_energy_on_4000_paths_RELEASE)
 {
   expect_no_jumps(3000, 1000);
 }
@@ -555,7 +555,7 @@ TEST(grain_folds, keep_their_energy_in_drums_and_funnels)
 {
   expect_the_energy_of_falls(1, 30000, 3e-4);
 }
-TEST(grain_folds, keep_their_energy_in_drums_and_funnels_for_100000_steps_LONG)
+TEST(grain_folds, keep_their_energy_in_drums_and_funnels_for_100000_steps_RELEASE)
 {
   expect_the_energy_of_falls(5, 100000, 3e-4);
 }

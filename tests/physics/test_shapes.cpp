@@ -391,7 +391,7 @@ TEST(shapes, rest_on_a_plane)
 {
   expect_rest_on_a_plane(10000);
 }
-TEST(shapes, rest_on_a_plane_for_100000_steps_LONG)
+TEST(shapes, rest_on_a_plane_for_100000_steps_RELEASE)
 {
   expect_rest_on_a_plane(100000);
 }
@@ -493,7 +493,7 @@ TEST(shapes, roll_alike_over_a_plane_that_is_cut_otherwise)
 {
   expect_alike_however_the_plane_is_cut(6000);
 }
-TEST(shapes, roll_alike_over_a_plane_that_is_cut_otherwise_for_100000_steps_LONG)
+TEST(shapes, roll_alike_over_a_plane_that_is_cut_otherwise_for_100000_steps_RELEASE)
 {
   expect_alike_however_the_plane_is_cut(100000);
 }
@@ -547,7 +547,7 @@ std::vector<std::unique_ptr<ShapeScene>> scenes_at(const std::vector<Vec3> &surf
 }
 // Of 4, 4, 48 and 5 triangles, of some hundred and of 2e5. An overlap and a normal are exact to some roundings of coordinates of 1 to
 // 10, 1e-15, over overlaps of 1e-4 at least. Where forces of a corner add, a contact that is found twice counts twice.
-TEST(shapes, have_the_same_forces_on_surfaces_of_200000_triangles_LONG)
+TEST(shapes, have_the_same_forces_on_surfaces_of_200000_triangles_RELEASE)
 {
   struct Surface {
     std::vector<Vec3> corners;
@@ -851,14 +851,14 @@ TEST(shapes, keep_their_energy_as_balls_do)
 {
   expect_the_energy_of_balls(20000);
 }
-TEST(shapes, keep_their_energy_as_balls_do_for_1000000_steps_LONG)
+TEST(shapes, keep_their_energy_as_balls_do_for_1000000_steps_RELEASE)
 {
   expect_the_energy_of_balls(1000000);
 }
 
 // Hertz's contact radius follows the curvature, and two contacts of a flat side share a force by their arms: neither is quite
 // conservative. The page fix_wall_lsdcd has these figures.
-TEST(shapes, change_the_energy_of_a_bounce_as_the_page_has_it_for_300000_steps_LONG)
+TEST(shapes, change_the_energy_of_a_bounce_as_the_page_has_it_for_300000_steps_RELEASE)
 {
   constexpr Real kStiffness = 1e4;
   const Real dt = 0.02 / std::sqrt(kStiffness);
