@@ -897,7 +897,7 @@ LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *posi
                                   const double *angular_velocity);
 /* Where the vertices of a mesh with `nodes_by_caller` are in the next step and those after it, and how fast they go, in
  * the box: 3 numbers each, in the order of the caller's vertices: those of lsdcd_mesh_from_faces() or of an OBJ, PLY or OFF file; of
- * STL files and of corners the corners, three a triangle. There are `given_vertices` of lsdcd_mesh_facts. Of several that were
+ * STL files and of corners the corners, three a triangle; of a mesh that words name by its file the vertices of the welded mesh. There are `given_vertices` of lsdcd_mesh_facts. Of several that were
  * welded to one the first counts, and the others are where it is; one of no triangle is not read. Between the three nodes of a triangle places and velocities are linear. Until the first call they are as the
  * placement has them, at rest; after lsdcd_wall_restore() as they were saved. Triangles stay the same.
  *

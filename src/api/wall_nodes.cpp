@@ -38,12 +38,20 @@ const MeshPart &part_that_deforms(const lsdcd_wall &wall, int mesh)
 {
   check_mesh(wall, mesh, 0);
   const MeshPart &part = wall.in->meshes()[static_cast<std::size_t>(mesh)];
-  return part.surface->changes() && part.spec.mesh ? part : part_with_nodes(wall, mesh);
+  return part.surface->changes() ? part : part_with_nodes(wall, mesh);
 }
 
-// The wall's mesh was welded once more.
+// Of a mesh by its file, of which the program has no vertices, rows are those of the welded mesh. One of the program was welded once
+// more by the wall.
 NodeRows node_rows_of(const MeshPart &part)
 {
+  if (!part.spec.mesh) {
+    NodeRows rows;
+    rows.node.resize(part.grid.mesh()->vertices.size());
+    std::iota(rows.node.begin(), rows.node.end(), 0);
+    rows.first_row = rows.node;
+    return rows;
+  }
   std::vector<Vec3> places;
   for (const Vec3 &x : part.spec.mesh->vertices) places.push_back(part.spec.placement.apply(x));
   const std::vector<Vec3> &at = part.grid.mesh()->vertices;

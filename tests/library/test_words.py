@@ -159,6 +159,14 @@ def test_refused_as_in_a_script(folder, words):
     fact("the check's is the wall's", str(refused_by_wall.value) == str(refused.value), str(refused_by_wall.value))
 
 
+@needs_lmp
+@pytest.mark.parametrize("words, says", (("motion caller", "in 'motion', caller is for a program that calls the library"), ("shapes", "'shapes' is not a keyword here")))
+def test_words_of_programs_alone(folder, words, says):
+    write_meshes(folder)
+    done = run(folder, f"{BEGIN}fix wall all wall/lsdcd {STYLE} mesh floor.stl {words}\n")
+    fact("a script is told", done.returncode != 0 and f"ERROR: Fix wall wall/lsdcd: {says}" in done.stdout, done.stdout[-400:])
+
+
 MESH = lsdcd.Mesh(*FLOOR)
 
 
@@ -230,6 +238,21 @@ def forces_of_one_step(words):
     force, torque = np.zeros((n, 3)), np.zeros((n, 3))
     wall.step(X, V, OMEGA, np.full(n, 0.5), np.ones(n), force, torque, DT)
     return force
+
+
+def test_nodes_of_a_file(folder, monkeypatch):
+    """Of a mesh by its file nodes are the vertices of the welded mesh: forces on them are those of the same mesh as a value."""
+    write_meshes(folder)
+    monkeypatch.chdir(folder)
+    rows = []
+    for words, named in ((f"{STYLE} mesh floor.stl name floor nodes caller", {}), (f"{STYLE} mesh $floor nodes caller", {"floor": MESH})):
+        wall, n = lsdcd.Wall(words, values=named), len(X)
+        force, torque, nodes = np.zeros((n, 3)), np.zeros((n, 3)), wall.nodes("floor")
+        wall.set_nodes("floor", nodes + (0, 0, 0.01))
+        wall.step(X, V, OMEGA, np.full(n, 0.5), np.ones(n), force, torque, DT)
+        of_nodes = wall.node_forces("floor")
+        rows.append(np.hstack([nodes, of_nodes])[np.lexsort(nodes.T)])
+    fact("the same nodes and forces", rows[0].shape == (4, 6) and (rows[0] == rows[1]).all() and rows[0][:, 5].any(), rows)
 
 
 def test_saved_with_inputs():
