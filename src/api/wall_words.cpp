@@ -164,9 +164,7 @@ int lsdcd_wall_change(lsdcd_wall *wall, const char *words, const lsdcd_value *va
       if (arguments.empty()) throw InputError("nothing is given to change: write " + syntax);
       const std::size_t taken = static_cast<std::size_t>(
           change_wall(*wall->in, arguments, {wall->number, wall->dt}, &read));
-      if (taken < arguments.size())
-        throw InputError("'" + arguments[taken] + "' is not expected" +
-                         (taken > 0 ? " behind the change" : "") + ": write " + syntax);
+      if (taken == 0) throw InputError("'" + arguments[0] + "' is not expected: write " + syntax);
     });
   });
 }

@@ -198,6 +198,9 @@ RigidMotion read_modified_motion(Tokens &w, InputNames &inputs)
       if (read.moves() || (!w.done() && w.peek() == "motion"))
         w.fail("none stops all motion: write no other motion with it");
     } else {
+      if (!w.done() && w.peek() == "caller")
+        w.fail("a mesh has poses of its program from the start or not at all: say motion caller "
+               "when the wall is made");
       read.add(read_motion_term(w, inputs));
     }
   }

@@ -78,7 +78,10 @@ ProgramWords::ProgramWords(const std::string &text, const std::vector<ProgramVal
   }
   for (const ProgramValue &value : values)
     if (std::find(used.begin(), used.end(), value.name) == used.end())
-      throw InputError("the value '" + value.name + "' is given, and no word is $" + value.name);
+      throw InputError("the value '" + value.name + "' is given, and no word is $" + value.name +
+                       (std::find(words_.begin(), words_.end(), value.name) == words_.end()
+                            ? ""
+                            : ": a value stands behind a $, and '" + value.name + "' is none"));
 }
 
 const ProgramValue *ProgramWords::find(const std::string &name) const

@@ -19,16 +19,19 @@ bool changes(const std::string &word)
   return word == "motion" || word == "servo" || word == "body";
 }
 
-// Returns the mesh, from 0, that `mesh K` means: its number, from 1, or its name.
-int mesh_of(const std::vector<std::string> &arguments, const std::vector<MeshSpec> &meshes)
+// Returns the mesh, from 0, that `mesh K` means: its number, from 1, or its name. Programs have names alone, as their calls count from 0.
+int mesh_of(const std::vector<std::string> &arguments, const std::vector<MeshSpec> &meshes,
+            bool of_program = false)
 {
-  const std::string begins = "fix_modify mesh K motion|servo|body|names ...: K is the number of a "
-                             "mesh, from 1 to " +
-                             std::to_string(meshes.size()) + ", or its name";
+  const std::string begins =
+      of_program ? "mesh NAME motion|servo|body ...: NAME is the name of a mesh"
+                 : "fix_modify mesh K motion|servo|body|names ...: K is the number of a "
+                   "mesh, from 1 to " +
+                       std::to_string(meshes.size()) + ", or its name";
   if (arguments.size() < 2) throw InputError(begins);
   const std::string &given = arguments[1];
   Real k = 0;
-  if (is_number(given, &k)) {
+  if (!of_program && is_number(given, &k)) {
     if (k != std::floor(k) || k < 1 || k > static_cast<Real>(meshes.size()))
       throw InputError(begins + ", not '" + given + "'");
     return static_cast<int>(k) - 1;
@@ -58,12 +61,13 @@ int change_wall(Wall &wall, const std::vector<std::string> &arguments, const Ste
   const std::size_t taken = arguments[0] == "mesh" ? 2 : 0;
   if (!taken && meshes.size() > 1)
     throw InputError("fix_modify " + arguments[0] + ": which of the " +
-                     std::to_string(meshes.size()) + " meshes? Write fix_modify ID mesh K " +
-                     arguments[0] + " ..., with K from 1, or the name of a mesh");
-  const int mesh = taken ? mesh_of(arguments, meshes) : 0;
+                     std::to_string(meshes.size()) + " meshes? Write " +
+                     (program ? "mesh NAME " : "fix_modify ID mesh K ") + arguments[0] + " ..." +
+                     (program ? "" : ", with K from 1, or the name of a mesh"));
+  const int mesh = taken ? mesh_of(arguments, meshes, program != nullptr) : 0;
   if (arguments.size() <= taken || !changes(arguments[taken]))
-    throw InputError("fix_modify mesh " + arguments[1] +
-                     ": motion ..., servo ..., body ... or names ... must follow" +
+    throw InputError("fix_modify mesh " + arguments[1] + ": motion ..., servo ...," +
+                     (program ? " or body ..." : " body ... or names ...") + " must follow" +
                      (arguments.size() <= taken ? "" : ", not '" + arguments[taken] + "'"));
   const MeshSpec &of = meshes[static_cast<std::size_t>(mesh)];
   if (program && of.motion.is_posed())
@@ -71,22 +75,31 @@ int change_wall(Wall &wall, const std::vector<std::string> &arguments, const Ste
                      "' has poses of the program, which alone move it: lsdcd_wall_set_pose()");
   Tokens w(arguments);
   while (w.at() < taken) w.take();
-  std::vector<std::string> inputs = wall.spec().inputs;
+  const InputNames before = wall.spec().inputs;
+  InputNames inputs = before;
+  // Once all is read; `set` refuses before it changes anything.
+  const auto change = [&](const auto &set) {
+    if (program && !w.done())
+      throw InputError("'" + w.peek() + "' is not expected behind the change of a mesh");
+    wall.set_inputs(inputs);
+    try {
+      set();
+    } catch (...) {
+      wall.set_inputs(before);
+      throw;
+    }
+  };
   if (w.peek() == "motion") {
     RigidMotion motion = read_modified_motion(w, inputs);
     if (program) program->put_into(motion);
-    wall.set_inputs(inputs);
-    wall.set_motion(mesh, motion, now);
+    change([&] { wall.set_motion(mesh, motion, now); });
   } else if (w.peek() == "body") {
     wall.check_is_body(mesh);
-    const BodySpec body =
-        read_modified_body(w, wall.spec().meshes[static_cast<std::size_t>(mesh)].body, inputs);
-    wall.set_inputs(inputs);
-    wall.set_body(mesh, body);
+    const BodySpec body = read_modified_body(w, of.body, inputs);
+    change([&] { wall.set_body(mesh, body); });
   } else {
     const Servo servo = read_modified_servo(w, inputs);
-    wall.set_inputs(inputs);
-    wall.set_servo(mesh, servo);
+    change([&] { wall.set_servo(mesh, servo); });
   }
   return static_cast<int>(w.at());
 }

@@ -192,7 +192,8 @@ void check_names(const std::vector<MeshSpec> &meshes)
       const bool named = meshes[k].name != meshes[k].file || meshes[i].name != meshes[i].file;
       if (named && meshes[k].name == meshes[i].name)
         throw InputError("in 'name', meshes " + std::to_string(i + 1) + " and " +
-                         std::to_string(k + 1) + " have the same name '" + meshes[k].name + "'");
+                         std::to_string(k + 1) + " have the same name '" + meshes[k].name +
+                         "': give one of them another by the keyword name");
     }
 }
 

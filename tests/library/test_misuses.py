@@ -231,7 +231,7 @@ def walls():
         yield name, whole(name), FLAG
     yield "average", whole("average"), WHOLE
     made, box = spec(), {"lo": (-9, -9, -9), "hi": (9, 9, 9)}
-    yield "spec", lambda b: lsdcd.Wall(b), [(None, "is None, not a WallSpec"), ("hooke", "is 'hooke', not a WallSpec"), (LAW, "not a WallSpec")]
+    yield "spec", lambda b: lsdcd.Wall(b), [(None, "is None, not a WallSpec"), (3, "is 3, not a WallSpec"), (LAW, "not a WallSpec")]
     for name in ("lo", "hi"):
         yield name, lambda b, name=name: lsdcd.Wall(made, **{**box, name: b}), [
             (None, "give both, or neither"), ("0 0 1", "not real numbers"), ((0, 0), "has the shape (2,), not (3,)"), (5, "has the shape"),

@@ -128,6 +128,7 @@ CHANGES = {
     "lsdcd_wall_set_pose": ("posed", lambda w: w.set_pose(0, (0, 0, 0.002), velocity=(0.1, 0, 0.02), angular_velocity=(0, 0, 0.3)), True),
     "lsdcd_wall_set_nodes": ("nodes", lambda w: w.set_nodes(0, TILTED, 0.1 * TILTED), True),
     "lsdcd_wall_set_motion": ("linear", lambda w: w.set_motion(0, [lsdcd.Motion.linear((0.05, 0, 0))]), False),
+    "lsdcd_wall_change": ("linear", lambda w: w.change("motion linear 0.05 0 0"), False),
     "lsdcd_wall_set_servo": ("servo", lambda w: w.set_servo(0, servo(target=25)["servo"]), False),
     "lsdcd_wall_set_body": ("slider", lambda w: w.set_body(0, body(motor=2)["body"]), False)}
 MORE_CHANGES = (
@@ -138,7 +139,8 @@ MORE_CHANGES = (
     ("set_servo: of a mesh at rest", "floor", lambda w: w.set_servo(0, servo()["servo"]), False),
     ("set_body: limits that do not hold 0", "slider", lambda w: w.set_body(0, body(limits=(-3, -1e-6))["body"]), False))
 # Others are no change of what a wall is made of.
-NO_CHANGES = {"from_spec", "free", "step_spheres", "renumber", "pack", "unpack", "get_totals", "get_outputs", "get_pose", "get_node_count", "get_nodes",
+NO_CHANGES = {"from_spec", "create", "check", "get_mesh", "set_input", "free", "step_spheres", "renumber", "pack", "unpack", "get_totals", "get_outputs",
+              "get_pose", "get_node_count", "get_nodes",
               "get_node_forces", "get_contacts", "get_impacts", "get_body", "save", "restore", "restore_what_fits"}
 
 

@@ -183,6 +183,8 @@ MESH = lsdcd.Mesh(*FLOOR)
     (f"{STYLE} mesh $floor contacts", {"floor": MESH}, "'contacts' is a keyword of scripts: write each_contact"),
     (f"{STYLE} mesh $floor motion caller motion linear 0 0 1", {"floor": MESH}, "in 'motion', the poses of the program alone move such a mesh"),
     (f"{STYLE} mesh $floor mesh_stl $file every 5", {"floor": MESH, "file": "a.obj"}, "a.obj"),
+    (f"{STYLE} mesh floor", {"floor": MESH}, r"no word is \$floor: a value stands behind a \$, and 'floor' is none"),
+    (f"{STYLE} mesh $floor mesh $floor move 0 0 1", {"floor": MESH}, "same name 'floor': give one of them another by the keyword name"),
     (f"{STYLE} mesh $floor mesh $floor name lid", {"floor": MESH}, "in 'mesh', of mesh 2 'lid': it is that of mesh 1 'floor' at the same place"),
     ("hooke/history $law mesh $floor", {"floor": MESH, "law": [1000, float("inf"), 20, None, 0.5, 1]}, "the value 'law': number 2 is inf, not finite")))
 def test_values_refused(words, values, says):
@@ -228,9 +230,34 @@ def test_inputs_and_changes():
         step()
     fact("the lid moves", abs(wall.pose("lid")[2, 3] + 10 * DT) < 1e-15, wall.pose("lid"))
     for words, says in (("mesh ild motion none", "not 'ild': the nearest is 'lid'"), ("", "nothing is given to change"),
-                        ("mesh lid motion linear 0 0", "in 'motion'"), ("corner sum", "'corner' is not expected: write")):
+                        ("mesh lid motion linear 0 0", "in 'motion'"), ("corner sum", "'corner' is not expected: write"),
+                        ("motion none", "which of the 2 meshes. Write mesh NAME motion"), ("mesh 1 motion none", "NAME is the name of a mesh, not '1'"),
+                        ("mesh lid names", "motion ..., servo ..., or body ... must follow, not 'names'"),
+                        ("mesh lid motion caller", "say motion caller when the wall is made"),
+                        ("mesh lid motion none servo none", "'servo' is not expected behind the change")):
         with pytest.raises(lsdcd.Error, match=says):
             wall.change(words)
+    before = wall.pose("lid")[2, 3]
+    step()
+    fact("a change that was refused has not stopped it", wall.pose("lid")[2, 3] < before)
+
+
+def test_inputs_of_changes():
+    """An input is there where the change is, and no step asks for one that nothing reads any more."""
+    wall, n = lsdcd.Wall(f"{STYLE} mesh $floor nodes caller mesh $lid move 0 0 5", floor=MESH, lid=MESH), len(X)
+    with pytest.raises(lsdcd.Error):
+        wall.change("mesh floor servo force z v_push vmax 1")
+    with pytest.raises(lsdcd.Error, match="the wall reads no v_push"):
+        wall.set_input("push", 1)
+    wall.change("mesh lid servo force z v_push vmax 1")
+    wall.set_input("push", -1)
+    wall.change("mesh lid servo force z v_other vmax 1")
+    arrays = [X, V, OMEGA, np.full(n, 0.5), np.ones(n), np.zeros((n, 3)), np.zeros((n, 3))]
+    with pytest.raises(lsdcd.Error, match="v_other has no value"):
+        wall.step(*arrays, DT)
+    wall.change("mesh lid servo none")
+    wall.step(*arrays, DT)
+    fact("the servo is gone", wall.outputs("servo_push", "lid")["servo_push"] == 0)
 
 
 def forces_of_one_step(words):

@@ -226,7 +226,9 @@ FIELDS = {
                      of_options("floor", EXACT, lo=(-4, -4, -4), hi=(4, 4, 4))],
         "margin": of_options("periodic", EXACT, margin=0.7), "time": of_options("floor", EXACT, time=3.0),
         "show": of_options("floor", EXACT, show=lambda text, warning: None), "data": "handed to show", "threads": of_options("floor", EXACT, threads=2),
-        "host": of_options("floor", EXACT, host=OneProcess()), "stream": "of a device", "device": "test_python_gpu.py"},
+        "host": of_options("floor", EXACT, host=OneProcess()), "stream": "of a device", "device": "test_python_gpu.py",
+        "units": "of words, test_words.py"},
+    "lsdcd_value": dict.fromkeys(("name", "kind", "mesh", "numbers", "n", "columns", "text"), "of words, test_words.py"),
     "lsdcd_host": dict.fromkeys(("size", "rank", "processes", "node_rank", "data", "sum", "max", "broadcast"),
                                 "test_library_processes.cpp: a state is of a process"),
     "lsdcd_law": {

@@ -41,7 +41,7 @@ FOLDERS = {
     "lammps": [".", "launcher"],
 }
 INPUT_MODULE = "input"
-INPUT_USERS = {"input", "lammps", "tool"}
+INPUT_USERS = {"api", "input", "lammps", "tool"}
 STUDY_MODULES = {"study", "tool"}
 HOST_FREE_MODULES = {"host", "wall", "engine"}
 HOST_WORDS = re.compile(

@@ -170,7 +170,7 @@ TEST(wall_spec, what_does_not_go_together_is_refused_by_keyword_and_by_field)
          m.motion.begin_posed();
          m.motion.add(MotionTerm());
        },
-       "posed_by_caller", "posed_by_caller", "the poses of the program alone move such a mesh"},
+       "motion", "posed_by_caller", "the poses of the program alone move such a mesh"},
       {[&](Wall &, Mesh &m) {
          body(m);
          m.motion.servo().present = true;

@@ -26,7 +26,8 @@ void for_inputs(MeshSpec &mesh, SurfaceMotion &surface, const Visit &visit)
       one(m.input[d], m.displacement[d]);
       one(m.input[3 + d], m.speed[d]);
     }
-  one(mesh.motion.servo().target_input, mesh.motion.servo().target);
+  Servo &servo = mesh.motion.servo();
+  if (!servo.holds) one(servo.target_input, servo.target);
   one(mesh.body.motor_input, mesh.body.drive.motor);
   for (int d = 0; d < 3; d++) {
     one(mesh.body.load_input[d], mesh.body.load[d]);
