@@ -17,6 +17,8 @@
 #include <vector>
 
 constexpr double kN = 1000, kT = 300, kDt = 1e-3;
+// The words of a wall with these.
+inline const std::string kFloorWords = "hooke/history 1000 300 0 0 0.5 0 mesh $floor ";
 // Products and sums of a few numbers of order one.
 constexpr double kRounding = 1e-13;
 
@@ -38,6 +40,14 @@ class FloorTest : public testing::Test {
   }
   void TearDown() override { std::remove(file_.c_str()); }
 
+  // `words`: what follows kFloorWords.
+  lsdcd::Wall floor_wall(const std::string &words = "",
+                         const lsdcd_wall_options *options = nullptr) const
+  {
+    return lsdcd::Wall(kFloorWords + words, {{"floor", *mesh_}}, options);
+  }
+
+  // By structs, for test_library_wall_spec and test_library_wall_gpu.
   static api::Law hooke_history(double kn = kN)
   {
     return api::Law::classic({"hooke/history", {kn, kT, 0, 0, 0.5, 0}});

@@ -140,7 +140,7 @@ TEST_F(fork_of_a_wall, leaves_a_child_its_steps)
   EXPECT_TRUE(is_the_same_in_a_child([&] {
     lsdcd::WallOptions options;
     options.threads = kThreads;
-    lsdcd::Wall wall(floor(), &options);
+    lsdcd::Wall wall = floor_wall("", &options);
     Grains grains;
     for (int i = 0; i < 2000; i++) grains.add(0.005 * i - 5, 0.3, 0.49, 0.1);
     grains.step(wall, 3);

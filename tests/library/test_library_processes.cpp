@@ -28,7 +28,7 @@ void move(Grains &g)
 TEST_F(processes, give_a_sphere_that_changes_process_the_trajectory_of_one_process)
 {
   constexpr int kBefore = 40, kAfter = 60;
-  lsdcd::Wall alone(floor());
+  lsdcd::Wall alone = floor_wall();
   Grains all;
   all.add(-1, 0, 0.49, 0.5);
   all.add(1, 0.3, 0.48, -0.2);
@@ -41,7 +41,7 @@ TEST_F(processes, give_a_sphere_that_changes_process_the_trajectory_of_one_proce
   std::vector<double> packed, body;
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
-    lsdcd::Wall wall(floor(), &process.options);
+    lsdcd::Wall wall = floor_wall("", &process.options);
     Grains mine;
     if (host.rank() == 0) {
       mine.add(-1, 0, 0.49, 0.5);
@@ -84,8 +84,8 @@ TEST_F(processes, give_a_sphere_that_changes_process_the_trajectory_of_one_proce
 
 TEST_F(processes, feed_a_servo_with_the_forces_of_all)
 {
-  const api::WallSpec servo = floor_that_pushes(25, 0.5);
-  lsdcd::Wall alone(servo);
+  const std::string pushes = "servo force z 25 vmax 0.5";
+  lsdcd::Wall alone = floor_wall(pushes);
   Grains all;
   all.add(3, -3, 0.49);
   all.add(-3, 3, 0.495);
@@ -93,7 +93,7 @@ TEST_F(processes, feed_a_servo_with_the_forces_of_all)
   const lsdcd_wall_totals one = alone.totals(0);    // here, as a wall serves one thread at a time
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
-    lsdcd::Wall wall(servo, &process.options);
+    lsdcd::Wall wall = floor_wall(pushes, &process.options);
     Grains mine;
     if (host.rank() == 0)
       mine.add(3, -3, 0.49);
@@ -120,7 +120,7 @@ TEST_F(processes, are_warned_once_of_spheres_outside_of_the_box)
     process.options.show = [](void *data, int warning, const char *text) {
       if (warning) static_cast<std::vector<std::string> *>(data)->push_back(text);
     };
-    lsdcd::Wall wall(floor(), &process.options);
+    lsdcd::Wall wall = floor_wall("", &process.options);
     Grains mine(1, 1, 0.49);
     mine.add(host.rank() == 0 ? 2 : 6, 2, 0.49);
     mine.step(wall, 3);
@@ -134,7 +134,7 @@ TEST_F(processes, go_on_from_what_each_saved)
 {
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
-    lsdcd::Wall first(floor(), &process.options), second(floor(), &process.options);
+    lsdcd::Wall first = floor_wall("", &process.options), second = floor_wall("", &process.options);
     Grains mine(host.rank(), 0, 0.49, 0.1 + host.rank());
     mine.step(first, 10);
     Grains same = mine;
@@ -150,7 +150,7 @@ TEST_F(processes, refuse_together_what_one_has_not_saved)
 {
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
-    lsdcd::Wall first(floor(), &process.options), second(floor(), &process.options);
+    lsdcd::Wall first = floor_wall("", &process.options), second = floor_wall("", &process.options);
     Grains mine(host.rank(), 0, 0.49, 0.1);
     mine.step(first, 2);
     std::vector<double> saved = first.save();
@@ -170,7 +170,7 @@ TEST_F(processes, show_each_line_once)
     process.options.show = [](void *data, int warning, const char *text) {
       static_cast<std::vector<std::string> *>(data)[warning].push_back(text);
     };
-    lsdcd::Wall wall(floor(), &process.options);
+    lsdcd::Wall wall = floor_wall("", &process.options);
     Grains mine;
     if (host.rank() == 1) mine.add(0, 0, 0.3);    // deep in the wall
     mine.step(wall, 1, true);
@@ -186,7 +186,7 @@ TEST_F(processes, are_all_told_of_a_sphere_of_one_in_the_next_call)
     for (int k = 0; k < 3; k++) process.options.hi[k] = -(process.options.lo[k] = -20);
     process.options.periodic[0] = 1;    // each step asks all how far spheres went past its faces
     process.options.margin = 0.1;
-    lsdcd::Wall wall(floor(), &process.options);
+    lsdcd::Wall wall = floor_wall("", &process.options);
     Grains mine;
     mine.add(0, 0, 0.49);
     mine.add(2, 0, 0.49);
@@ -203,7 +203,7 @@ TEST_F(processes, refuse_together_what_one_gives_wrongly)
 {
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
-    lsdcd::Wall wall(floor(), &process.options);
+    lsdcd::Wall wall = floor_wall("", &process.options);
     Grains mine(0, 0, 0.49);
     lsdcd_spheres s = mine.spheres();
     if (host.rank() == 1) s.torque = nullptr;
@@ -224,13 +224,11 @@ TEST_F(processes, refuse_together_what_one_gives_wrongly)
 
 TEST_F(processes, refuse_together_nodes_that_differ)
 {
-  api::WallSpec spec = floor();
-  spec.meshes[0].nodes_by_caller = true;
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
     for (const bool differ : {false, true})
       for (const bool in_place : {true, false}) {
-        lsdcd::Wall wall(spec, &process.options);
+        lsdcd::Wall wall = floor_wall("nodes caller", &process.options);
         Grains mine(host.rank(), 0.25, 0.49);
         std::vector<double> x = wall.nodes(0), v(x.size(), 0);
         (in_place ? x : v)[4] += differ && host.rank() == 1 ? 0.125 : 0.25;
@@ -248,13 +246,13 @@ TEST_F(processes, are_told_of_a_callback_that_fails)
   lsdcd::FakeHost host;
   Process process(host);
   process.callbacks.max = [](void *, double *, int) { return 5; };
-  EXPECT_EQ(text_of([&] { lsdcd::Wall wall(floor(), &process.options); }),
+  EXPECT_EQ(text_of([&] { floor_wall("", &process.options); }),
             "`lsdcd_host`: max() returned 5, not 0: end all processes");
 }
 
 TEST_F(processes, refuse_numbers_that_were_not_packed)
 {
-  lsdcd::Wall wall(floor());
+  lsdcd::Wall wall = floor_wall();
   Grains grains;
   grains.add(0, 0, 0.49, 0.1);
   grains.add(2, 0, 0.49, 0.2);
@@ -284,7 +282,7 @@ TEST_F(processes, refuse_numbers_that_were_not_packed)
 // One of two spheres of a name would lose its springs.
 TEST_F(processes, refuse_a_sphere_that_would_be_there_twice)
 {
-  lsdcd::Wall wall(floor());
+  lsdcd::Wall wall = floor_wall();
   Grains grains;
   for (const double x : {0, 2, 4}) grains.add(x, 0, 0.49, 0.1);
   grains.step(wall, 3);

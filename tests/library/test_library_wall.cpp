@@ -21,7 +21,7 @@ class wall : public FloorTest {};
 
 TEST_F(wall, moves_springs_in_steps_only)
 {
-  lsdcd::Wall wall(floor());
+  lsdcd::Wall wall = floor_wall();
   Grains grains(0.3, 0.2, 0.49, 0.1);
   grains.step(wall, 1, true);
   EXPECT_EQ(grains.force[0], 0);
@@ -31,7 +31,7 @@ TEST_F(wall, moves_springs_in_steps_only)
 
 TEST_F(wall, lets_springs_follow_spheres_that_change_their_numbers)
 {
-  lsdcd::Wall wall(floor());
+  lsdcd::Wall wall = floor_wall();
   Grains grains;
   grains.add(1, 0, 0.49, 0.1);
   grains.add(-1, 0, 0.49, 0.3);
@@ -48,13 +48,11 @@ TEST_F(wall, lets_springs_follow_spheres_that_change_their_numbers)
 TEST_F(wall, has_the_contacts_and_totals_of_its_last_step_after_a_change_of_motion)
 {
   for (const bool asks : {false, true}) {
-    api::WallSpec spec = floor();
-    spec.each_contact = true;
-    lsdcd::Wall wall(spec);
+    lsdcd::Wall wall = floor_wall("each_contact");
     Grains grains(0.3, 0.2, 0.49, 0.1);
     grains.step(wall, 1);
     if (asks) wall.totals(0);
-    wall.set_motion(0, {api::Motion::linear({0, 0, 0.1})});
+    wall.change("motion linear 0 0 0.1");
     const auto contacts = wall.contacts();
     ASSERT_EQ(contacts.size(), 1u) << asks;
     EXPECT_NEAR(contacts[0].force[2], 0.01 * kN, kN * kRounding);
@@ -65,8 +63,8 @@ TEST_F(wall, has_the_contacts_and_totals_of_its_last_step_after_a_change_of_moti
 
 TEST_F(wall, goes_on_from_what_was_saved)
 {
-  const api::WallSpec spec = floor_that_moves(api::Motion::linear({0.01, 0, 0}));
-  lsdcd::Wall first(spec), second(spec);
+  const std::string moves = "motion linear 0.01 0 0";
+  lsdcd::Wall first = floor_wall(moves), second = floor_wall(moves);
   Grains grains(0.3, 0.2, 0.49, 0.1);
   grains.step(first, 10);
   Grains same = grains;
@@ -78,7 +76,7 @@ TEST_F(wall, goes_on_from_what_was_saved)
 
 TEST_F(wall, has_totals_of_a_mesh_that_moves)
 {
-  lsdcd::Wall wall(floor_that_moves(api::Motion::linear({0, 0, 2})));
+  lsdcd::Wall wall = floor_wall("motion linear 0 0 2");
   Grains grains(3, 0, 0.49);
   grains.step(wall);
   const lsdcd_wall_totals totals = wall.totals(0);
@@ -93,7 +91,7 @@ TEST_F(wall, has_totals_of_a_mesh_that_moves)
 // A turn about an axis along y through (1, 0, 0), once in 2.
 TEST_F(wall, has_the_pose_of_a_mesh_that_turns)
 {
-  lsdcd::Wall wall(floor_that_moves(api::Motion::rotate({1, 0, 0}, {0, 1, 0}, 2)));
+  lsdcd::Wall wall = floor_wall("motion rotate 1 0 0 0 1 0 2");
   Grains grains(0, 0, 5);
   grains.step(wall, 100);
   const double angle = std::acos(-1.) * 100 * kDt, c = std::cos(angle), s = std::sin(angle);
@@ -106,7 +104,7 @@ TEST_F(wall, has_the_pose_of_a_mesh_that_turns)
 // They stay, go a little and leap, from where no list of the wall has them.
 TEST_F(wall, feels_spheres_wherever_they_go)
 {
-  lsdcd::Wall wall(floor());
+  lsdcd::Wall wall = floor_wall();
   Grains grains;
   for (int i = 0; i < 50; i++) grains.add(0, 0, 5);
   lsdcd::Random random(3);
@@ -134,9 +132,7 @@ TEST_F(wall, without_a_box_is_felt_all_over_a_mesh_of_2000_radii)
   const api::Mesh large(floor, {0, 1, 2, 0, 2, 3});
   for (const bool moves : {false, true}) {
     SCOPED_TRACE(moves);
-    api::WallSpec spec = floor_of(hooke_history(), large);
-    if (moves) spec.meshes[0].motions = {api::Motion::linear({1, 0, 0})};
-    lsdcd::Wall wall(spec);
+    lsdcd::Wall wall(kFloorWords + (moves ? "motion linear 1 0 0" : ""), {{"floor", large}});
     Grains grains;
     for (double x = 1 - half; x < half; x += 2) grains.add(x, x / 2, 0.4);
     grains.step(wall, 1, true);
@@ -148,7 +144,7 @@ TEST_F(wall, without_a_box_is_felt_all_over_a_mesh_of_2000_radii)
 TEST_F(wall, shows_its_log_and_warnings)
 {
   Shown shown;
-  lsdcd::Wall wall(floor(), &shown);
+  lsdcd::Wall wall = floor_wall("", &shown);
   ASSERT_EQ(shown.lines.size(), 1u);
   EXPECT_TRUE(has(shown.lines[0], "floor"));
   EXPECT_TRUE(has(shown.lines[0], "contact     hooke/history, kn 1000, kt 300"));
@@ -161,9 +157,7 @@ TEST_F(wall, acts_through_a_periodic_face_and_warns_past_it)
 {
   Shown shown;
   set_box(shown, 20);
-  api::WallSpec spec = floor();
-  spec.meshes[0].placement.move(0, 0, -19.6);
-  lsdcd::Wall wall(spec, &shown);
+  lsdcd::Wall wall = floor_wall("move 0 0 -19.6", &shown);
   Grains grains(0, 0, 19.92);    // the image of the floor is at z = 20.4
   grains.step(wall);
   EXPECT_NEAR(grains.force[2], -kN * 0.02, kN * 1e-13);
@@ -176,7 +170,7 @@ TEST_F(wall, acts_through_a_periodic_face_and_warns_past_it)
 
 TEST_F(wall, refuses_numbers_that_it_did_not_save)
 {
-  lsdcd::Wall wall(floor()), other(floor());
+  lsdcd::Wall wall = floor_wall(), other = floor_wall();
   Grains grains(0, 0, 0.49, 0.1);
   grains.step(wall);
   std::vector<double> saved = wall.save();
@@ -196,11 +190,11 @@ TEST_F(wall, needs_a_GPU_for_arrays_on_one)
   if (lsdcd_has_cuda()) GTEST_SKIP() << "there is one";
   lsdcd::WallOptions options;
   options.device = LSDCD_CUDA;
-  const std::string told = text_of([&] { lsdcd::Wall wall(floor(), &options); }),
+  const std::string told = text_of([&] { floor_wall("", &options); }),
                     remedy = "; use LSDCD_CPU, with arrays of the host";
   EXPECT_TRUE(begins(told, "CUDA: "));
   EXPECT_EQ(told.substr(told.size() - remedy.size()), remedy);
-  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(floor(), &options); }), LSDCD_ERROR_DEVICE);
+  EXPECT_EQ(code_of([&] { floor_wall("", &options); }), LSDCD_ERROR_DEVICE);
 }
 
 // In a process of its own: a driver stays.
@@ -208,7 +202,7 @@ TEST_F(wall, refuses_arrays_that_only_a_GPU_can_read)
 {
   if (dlopen("libcuda.so.1", RTLD_NOLOAD | RTLD_LAZY)) GTEST_SKIP() << "a driver is loaded";
   const auto step_with_a_driver = [&] {
-    lsdcd::Wall wall(floor());
+    lsdcd::Wall wall = floor_wall();
     Grains grains(0, 0, 0.49);
     if (!dlopen(LSDCD_FAKE_CUDA, RTLD_NOW)) std::_Exit(-1);
     std::_Exit(code_of([&] { grains.step(wall); }) + 100 * (grains.force[2] != 0));
@@ -241,7 +235,7 @@ TEST_F(wall, refuses_spheres_without_a_place_a_velocity_a_size_or_a_mass)
   for (const auto &row : rows)
     for (const int steps : {0, 2}) {
       if (steps > 0 && !row.in_each_step) continue;
-      lsdcd::Wall wall(floor());
+      lsdcd::Wall wall = floor_wall();
       Grains grains;
       for (int i = 0; i < 3; i++) grains.add(i, 0, 0.49);
       grains.step(wall, steps);
@@ -260,7 +254,7 @@ TEST_F(wall, warns_once_of_spheres_outside_of_its_box)
 {
   Shown shown;
   set_box(shown, 5);
-  lsdcd::Wall wall(floor(), &shown);
+  lsdcd::Wall wall = floor_wall("", &shown);
   Grains grains(5, 5, 0.49);
   grains.add(-5, 0, 0.49);
   grains.add(0, 0, 5.05);
@@ -282,7 +276,7 @@ TEST_F(wall, tells_what_its_show_has_thrown_after_a_whole_step)
     if (warning) throw std::runtime_error("no more lines");
   };
   set_box(options, 5, false);
-  lsdcd::Wall wall(floor(), &options), quiet(floor());
+  lsdcd::Wall wall = floor_wall("", &options), quiet = floor_wall();
   Grains grains, same;
   for (Grains *g : {&grains, &same}) {
     g->add(0, 0, 0.49);
@@ -301,13 +295,12 @@ TEST_F(wall, is_not_made_where_its_show_throws)
 {
   lsdcd::WallOptions options;
   options.show = [](void *, int, const char *) { throw 1; };
-  EXPECT_EQ(text_of([&] { lsdcd::Wall wall(floor(), &options); }),
-            "`show` has thrown: not a std::exception");
+  EXPECT_EQ(text_of([&] { floor_wall("", &options); }), "`show` has thrown: not a std::exception");
 }
 
 TEST_F(wall, takes_vectors_that_lie_between_each_other_and_refuses_those_that_overlap)
 {
-  lsdcd::Wall wall(floor());
+  lsdcd::Wall wall = floor_wall();
   constexpr int kRow = 16,
                 kSpheres = 3;    // x, v, omega, force and torque are 3 numbers each, one is free
   std::vector<double> all(kSpheres * kRow), ones(kSpheres, 1), radii(kSpheres, 0.5);
@@ -349,7 +342,7 @@ TEST_F(wall, takes_vectors_that_lie_between_each_other_and_refuses_those_that_ov
 
 TEST_F(wall, names_a_sphere_by_its_place_in_the_arrays_after_they_were_sorted)
 {
-  lsdcd::Wall wall(floor());
+  lsdcd::Wall wall = floor_wall();
   Grains grains;
   grains.add(5, 5, 0.49);
   grains.add(0, 0, 0.49);
@@ -364,7 +357,7 @@ TEST_F(wall, names_a_sphere_by_its_place_in_the_arrays_after_they_were_sorted)
 // A sphere that outgrew its grid is found when the springs of the step have moved.
 TEST_F(wall, refuses_all_calls_after_a_step_that_failed_half_way)
 {
-  lsdcd::Wall wall(floor());
+  lsdcd::Wall wall = floor_wall();
   Grains grains;
   grains.add(5, 5, 0.49);
   grains.add(0, 0, 0.49);
@@ -373,9 +366,9 @@ TEST_F(wall, refuses_all_calls_after_a_step_that_failed_half_way)
   const std::string first = text_of([&] { grains.step(wall); });
   grains.radius[1] = 0.5;
   const std::function<void()> calls[] = {
-      [&] { grains.step(wall); },     [&] { wall.totals(); },  [&] { wall.save(); },
-      [&] { wall.renumber({1, 0}); }, [&] { wall.pack({0}); }, [&] { wall.pose(0); },
-      [&] { wall.set_motion(0, {}); }};
+      [&] { grains.step(wall); },         [&] { wall.totals(); },  [&] { wall.save(); },
+      [&] { wall.renumber({1, 0}); },     [&] { wall.pack({0}); }, [&] { wall.pose(0); },
+      [&] { wall.change("motion none"); }};
   for (const std::function<void()> &call : calls) {
     EXPECT_EQ(code_of(call), LSDCD_ERROR_INPUT);
     EXPECT_TRUE(
@@ -386,24 +379,24 @@ TEST_F(wall, refuses_all_calls_after_a_step_that_failed_half_way)
 // What the rows below call, each spoilt in one thing.
 struct Calls {
   lsdcd_wall *wall;
-  const lsdcd_wall_spec *spec;
+  lsdcd_value floor = {};
   Grains grains;
   lsdcd_spheres spheres;
   lsdcd_wall_step step = {};
   lsdcd_wall_totals totals = {};
   lsdcd_wall_contacts contacts = {};
   lsdcd_body_state body = {};
-  lsdcd_motion motion = {};
-  lsdcd_servo servo = {};
-  lsdcd_rigid_body rigid = {};
   lsdcd_wall_options options = {};
   lsdcd_host host = {};
   double numbers[12] = {};
   std::ptrdiff_t which[2] = {0, 1};
   std::size_t count = 0;
 
-  Calls(lsdcd_wall *wall, const lsdcd_wall_spec *spec) : wall(wall), spec(spec)
+  Calls(lsdcd_wall *wall, const api::Mesh &mesh) : wall(wall)
   {
+    floor.name = "floor";
+    floor.kind = LSDCD_VALUE_MESH;
+    floor.mesh = mesh.get();
     grains.add(0, 0, 0.49);
     grains.add(1, 0, 0.49);
     spheres = grains.spheres();
@@ -412,9 +405,6 @@ struct Calls {
     totals.size = sizeof totals;
     contacts.size = sizeof contacts;
     body.size = sizeof body;
-    motion.size = sizeof motion;
-    servo.size = sizeof servo;
-    rigid.size = sizeof rigid;
     options.size = sizeof options;
     host.size = sizeof host;
     host.processes = 1;
@@ -422,13 +412,16 @@ struct Calls {
     host.broadcast = [](void *, void *, size_t, int) { return 0; };
   }
   int take_step() const { return lsdcd_wall_step_spheres(wall, &spheres, &step); }
-  int make()
+  int change(const char *by) const { return lsdcd_wall_change(wall, by, nullptr, 0); }
+  int make() { return make_by(kFloorWords.c_str()); }
+  int make_by(const char *words)
   {
     lsdcd_wall *made = nullptr;
-    const int code = lsdcd_wall_from_spec(spec, &options, &made);
+    const int code = lsdcd_wall_create(words, &floor, 1, &options, &made);
     lsdcd_wall_free(made);
     return code;
   }
+  int make_with(const std::string &more) { return make_by((kFloorWords + more).c_str()); }
   int make_for(void (*spoil)(lsdcd_host &))
   {
     spoil(host);
@@ -444,7 +437,6 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
   const struct {
     std::function<int(C &)> call;
     const char *text;
-    int code = LSDCD_ERROR_ARGUMENT;
   } rows[] = {
       // Steps.
       {[](C &c) { return lsdcd_wall_step_spheres(nullptr, &c.spheres, &c.step); },
@@ -516,18 +508,17 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
        "mesh 0, 'floor', is not posed by the caller"},
       {[](C &c) { return lsdcd_wall_set_nodes(c.wall, 0, c.numbers, nullptr); },
        "mesh 0, 'floor', has no nodes"},
-      {[](C &c) { return lsdcd_wall_set_motion(c.wall, 0, nullptr, 1); },
-       "`motions` is null: give an array of 1"},
-      {[](C &c) { return c.motion.kind = 9, lsdcd_wall_set_motion(c.wall, 0, &c.motion, 1); },
-       "`motions[0].kind` is 9: it is LSDCD_LINEAR"},
-      {[](C &c) { return c.motion.size = 0, lsdcd_wall_set_motion(c.wall, 0, &c.motion, 1); },
-       "`motions[0]`: size is 0, and should be"},
-      {[](C &c) { return lsdcd_wall_set_servo(c.wall, 0, &c.servo); },
-       "`servo.axis` is 0 0 0: give a direction"},
-      {[](C &c) { return c.servo.size = 3, lsdcd_wall_set_servo(c.wall, 0, &c.servo); },
-       "`servo`: size is 3, and should be"},
-      {[](C &c) { return lsdcd_wall_set_body(c.wall, 0, &c.rigid); },
-       "mesh 0, 'floor', is not a body"},
+      {[](C &c) { return c.change(nullptr); }, "`words` is null"},
+      {[](C &c) { return c.change(""); }, "nothing is given to change: write [mesh NAME] motion"},
+      {[](C &c) { return lsdcd_wall_change(c.wall, "motion none", nullptr, 1); },
+       "`values` is null"},
+      {[](C &c) { return c.change("motion slide 0 0 1"); },
+       "in 'motion', 'slide' is not one of its values"},
+      {[](C &c) { return c.change("servo force axis 0 0 0 1 vmax 1"); },
+       "in 'servo', the axis ax ay az must not be 0 0 0"},
+      {[](C &c) { return c.change("body motor 1"); },
+       "the mesh is not a body, and cannot become one later"},
+      {[](C &c) { return lsdcd_wall_set_input(c.wall, nullptr, 1); }, "`name` is null"},
       // Spheres that go, and saved states.
       {[](C &c) { return lsdcd_wall_renumber(c.wall, nullptr, 2); }, "`from` is null"},
       {[](C &c) { return c.which[1] = 2, lsdcd_wall_renumber(c.wall, c.which, 2); },
@@ -562,8 +553,22 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
        },
        "a wall is restored before its first step"},
       // Walls.
-      {[](C &c) { return lsdcd_wall_from_spec(c.spec, nullptr, nullptr); }, "`wall` is null"},
-      {[](C &c) { return c.spec = nullptr, c.make(); }, "`lsdcd_wall_spec` is null"},
+      {[](C &c) { return lsdcd_wall_create(kFloorWords.c_str(), &c.floor, 1, nullptr, nullptr); },
+       "`wall` is null"},
+      {[](C &c) { return c.make_by(nullptr); }, "`words` is null"},
+      {[](C &c) { return lsdcd_wall_create(kFloorWords.c_str(), nullptr, 1, nullptr, &c.wall); },
+       "`values` is null"},
+      {[](C &c) { return c.floor.name = nullptr, c.make(); },
+       "`values[0].name` is null: give a name, without $"},
+      {[](C &c) { return c.floor.kind = 9, c.make(); },
+       "`values[0].kind` is 9: it is LSDCD_VALUE_NUMBERS"},
+      {[](C &c) { return c.floor.mesh = nullptr, c.make(); },
+       "`values[0].mesh` is null: give a mesh"},
+      {[](C &c) { return c.make_with("scale 0 1 1"); }, "in 'scale', the factor must not be zero"},
+      {[](C &c) { return c.make_with("rotate 0 0 0 90"); },
+       "in 'rotate', the axis must not be 0 0 0"},
+      {[](C &c) { return c.make_with("move nan 0 0"); },
+       "in 'move', x must be a number, not 'nan'"},
       {[](C &c) { return c.options.size = 8, c.make(); },
        "`lsdcd_wall_options`: size is 8, and should be"},
       {[](C &c) { return c.options.threads = -1, c.make(); }, "`threads` is -1; it is 0 to 4096"},
@@ -591,24 +596,16 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
        "`lsdcd_host`: `max` is null"},
       {[](C &c) { return c.make_for([](lsdcd_host &h) { h.broadcast = nullptr; }); },
        "`lsdcd_host`: `broadcast` is null"},
-      // Placements.
-      {[](C &) { return lsdcd_place_move(nullptr, 1, 0, 0); }, "`placement` is null"},
-      {[](C &c) { return lsdcd_place_scale(c.numbers, 0, 1, 1); }, "scale 0 1 1: a factor is zero",
-       LSDCD_ERROR_INPUT},
-      {[](C &c) { return lsdcd_place_rotate(c.numbers, nullptr, 90); }, "`axis` is null"},
-      {[=](C &c) { return c.numbers[3] = nan, lsdcd_place_move(c.numbers, 1, 0, 0); },
-       "`placement[3]` is nan: give a finite"},
+      // Sub-models.
       {[](C &) { return lsdcd_sub_model_get_facts(0, nullptr); },
        "`lsdcd_sub_model_facts` is null"},
   };
-  lsdcd::Wall wall(floor());
-  const api::WallSpec of = floor();
-  const api::c::Spec spec(of);
-  Calls(wall.get(), spec.get()).take_step();
+  lsdcd::Wall wall = floor_wall();
+  Calls(wall.get(), *mesh_).take_step();
   const std::vector<double> before = wall.save();
   for (const auto &row : rows) {
-    Calls calls(wall.get(), spec.get());
-    EXPECT_EQ(row.call(calls), row.code) << row.text;
+    Calls calls(wall.get(), *mesh_);
+    EXPECT_EQ(row.call(calls), LSDCD_ERROR_ARGUMENT) << row.text;
     EXPECT_TRUE(begins(lsdcd_last_error(), row.text));
     for (const double f : calls.grains.force) EXPECT_EQ(f, 0) << row.text;
   }
@@ -617,7 +614,7 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
 
 TEST_F(wall, goes_on_after_a_step_that_was_refused_before_it_began)
 {
-  lsdcd::Wall wall(floor()), unbroken(floor());
+  lsdcd::Wall wall = floor_wall(), unbroken = floor_wall();
   Grains grains(0, 0, 0.49, 0.1);
   Grains same = grains;
   grains.step(wall, 3);
