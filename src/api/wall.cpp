@@ -218,8 +218,8 @@ int lsdcd_wall_get_contacts(lsdcd_wall *wall, lsdcd_wall_contacts *contacts)
     const lsdcd_wall_contacts to = checked(contacts, "lsdcd_wall_contacts");
     if (!wall->in->spec().each_contact)
       throw ApiError(LSDCD_ERROR_ARGUMENT,
-                     "this wall does not keep its contacts: set each_contact in its "
-                     "lsdcd_wall_spec when the wall is made");
+                     "this wall does not keep its contacts: say each_contact when "
+                     "the wall is made");
     if (wall->is_restored)
       throw ApiError(LSDCD_ERROR_ARGUMENT,
                      "the wall has made no step since it was restored, and saved numbers have no "
@@ -254,10 +254,9 @@ int lsdcd_wall_get_impacts(lsdcd_wall *wall, int mesh, lsdcd_wall_impacts *impac
     const lsdcd_wall_impacts to = checked(impacts, "lsdcd_wall_impacts");
     check_mesh(*wall, mesh, 0);
     if (!(wall->in->spec().impact_speed > 0))
-      throw ApiError(
-          LSDCD_ERROR_ARGUMENT,
-          "this wall does not record impacts: set impact_speed in its lsdcd_wall_spec when "
-          "the wall is made");
+      throw ApiError(LSDCD_ERROR_ARGUMENT,
+                     "this wall does not record impacts: say impacts V when the wall is made, with "
+                     "the least speed V");
     tell_late(*wall);
     const std::vector<ImpactSpectrum::Row> rows = wall->in->impacts(mesh).rows();
     impacts->bins = rows.size();

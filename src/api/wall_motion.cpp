@@ -37,8 +37,8 @@ void check_posed(const lsdcd_wall &wall, int mesh, bool wanted)
   if (spec.motion.is_posed() == wanted) return;
   throw ApiError(LSDCD_ERROR_ARGUMENT,
                  named + ", is " +
-                     (wanted ? "not posed by the caller: set posed_by_caller in its "
-                               "lsdcd_wall_mesh when the wall is made"
+                     (wanted ? "not posed by the caller: say motion caller when "
+                               "the wall is made"
                              : "posed by the caller: lsdcd_wall_set_pose() moves it"));
 }
 
@@ -49,8 +49,7 @@ void check_is_body(const lsdcd_wall &wall, int mesh)
   if (!spec.body.present)
     throw ApiError(LSDCD_ERROR_ARGUMENT,
                    "mesh " + std::to_string(mesh) + ", '" + spec.name +
-                       "', is not a body: give its lsdcd_wall_mesh a body when "
-                       "the wall is made");
+                       "', is not a body: say body ... when the wall is made");
 }
 
 }    // namespace

@@ -26,11 +26,9 @@ const MeshPart &part_with_nodes(const lsdcd_wall &wall, int mesh)
   check_mesh(wall, mesh, 0);
   const MeshPart &part = wall.in->meshes()[static_cast<std::size_t>(mesh)];
   if (part.nodes()) return part;
-  throw ApiError(
-      LSDCD_ERROR_ARGUMENT,
-      "mesh " + std::to_string(mesh) + ", '" + part.spec.name +
-          "', has no nodes that move: set nodes_by_caller in its lsdcd_wall_mesh when the "
-          "wall is made");
+  throw ApiError(LSDCD_ERROR_ARGUMENT,
+                 "mesh " + std::to_string(mesh) + ", '" + part.spec.name +
+                     "', has no nodes that move: say nodes caller when the wall is made");
 }
 
 // Returns the mesh, which has nodes that move or is moved by wear; another one is an error.

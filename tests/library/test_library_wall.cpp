@@ -491,8 +491,7 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
       {[](C &c) { return c.contacts.size = 0, lsdcd_wall_get_contacts(c.wall, &c.contacts); },
        "`lsdcd_wall_contacts`: size is 0"},
       {[](C &c) { return lsdcd_wall_get_contacts(c.wall, &c.contacts); },
-       "this wall does not keep its contacts: set each_contact in its lsdcd_wall_spec when the "
-       "wall is made"},
+       "this wall does not keep its contacts: say each_contact when the wall is made"},
       {[](C &c) { return lsdcd_wall_get_body(c.wall, 0, nullptr); }, "`lsdcd_body_state` is null"},
       {[](C &c) { return lsdcd_wall_get_body(c.wall, 0, &c.body); },
        "mesh 0, 'floor', is not a body"},

@@ -798,7 +798,7 @@ TEST_F(wall_spec, refuses_nodes_that_make_no_sense)
 {
   api::WallSpec spec = floor();
   lsdcd::Wall still(spec);
-  EXPECT_TRUE(is_refused("has no nodes that move: set nodes_by_caller", [&] { still.nodes(0); }));
+  EXPECT_TRUE(is_refused("has no nodes that move: say nodes caller", [&] { still.nodes(0); }));
   spec.meshes[0].nodes_by_caller = true;
   lsdcd::Wall wall(spec);
   std::vector<double> at = wall.nodes(0);
