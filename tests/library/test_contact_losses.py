@@ -14,7 +14,6 @@ from facts import at_most, fact
 
 ROUNDING = 1e-13
 DAMPING, SLIDER, ROLLING, TWISTING, ADHESION = range(5)
-Sub = lsdcd.SubModel
 
 
 def sheet(n=1, half=3.0, height=lambda x, y: 0.0):
@@ -29,7 +28,23 @@ def square(*corners):
     return lsdcd.Mesh(np.array(corners, float), [[0, 1, 2], [0, 2, 3]])
 
 
-FLOOR = lsdcd.Mesh(*sheet())
+# A flat floor; a bumpy one, four sides as one mesh, a paddle that turns, and a plate on a spring.
+CORNERS = [(-2.5, -2.5), (2.5, -2.5), (2.5, 2.5), (-2.5, 2.5)]
+MESHES = {"floor": lsdcd.Mesh(*sheet()),
+          "bumps": lsdcd.Mesh(*sheet(12, 3.0, lambda x, y: 0.15 * math.sin(2 * x) * math.cos(3 * y))),
+          "sides": lsdcd.Mesh(np.array([(*c, z) for z in (-1, 4) for c in CORNERS], float),
+                              [f for k in range(4) for f in ((k, (k + 1) % 4, k + 4), ((k + 1) % 4, (k + 1) % 4 + 4, k + 4))]),
+          "paddle": square((-1.5, 0, -0.2), (1.5, 0, -0.2), (1.5, 0, 1), (-1.5, 0, 1)),
+          "plate": square((-2, -2, 0.3), (-1, -2, 0.3), (-1, -1, 0.3), (-2, -1, 0.3))}
+PARTS = "mesh $bumps mesh $sides mesh $paddle motion rotate 0 0 0 0 0 1 1.5"
+BOXED = f"{PARTS} mesh $plate body mass 5 com 0 0 0 inertia 1 1 2 0 0 0 joint slider 0 0 1 spring 500 5"
+
+ROUGH = """granular hertz 2e4 10 tangential mindlin 1e4 1 0.4 damping mass_velocity
+           rolling sds 2e3 1 0.1 twisting sds 500 0.2 0.05"""
+STICKY = """granular jkr 2e4 0.3 0.3 4 tangential mindlin_rescale/force NULL 0.6 0.4 damping viscoelastic
+            rolling sds 2e3 5 0.1 twisting marshall"""
+CLASSIC = "hooke/history 1e4 4e3 30 NULL 0.5 1"
+LISTED = "each_contact energy"
 
 
 class Grains:
@@ -62,8 +77,10 @@ class Grains:
             setattr(self, name, getattr(self, name)[which].copy())
 
 
-def wall_of(law, meshes, **more):
-    return lsdcd.Wall(lsdcd.WallSpec(law, meshes, each_contact=True, energy=True, **more), threads=1)
+def wall_of(*words, **meshes):
+    """Of the words, with what they name of `meshes` and MESHES."""
+    text = " ".join(words)
+    return lsdcd.Wall(text, values={name: mesh for name, mesh in (MESHES | meshes).items() if f"${name}" in text.split()}, threads=1)
 
 
 class Ledger:
@@ -105,31 +122,11 @@ def bed(seed, n=60, **more):
     return Grains(x, random.normal(size=(n, 3)), random.normal(size=(n, 3)) * 4, radius, 2 * radius**3, (2, 1, -10), **more)
 
 
-ROUGH = lsdcd.Law.granular(Sub("hertz", kn=2e4, eta=10), Sub("mindlin", kt=1e4, xgammat=1, mu=0.4), "mass_velocity",
-                           rolling=Sub("sds", k=2e3, gamma=1, mu=0.1), twisting=Sub("sds", k=500, gamma=0.2, mu=0.05))
-STICKY = lsdcd.Law.granular(Sub("jkr", E=2e4, eta=0.3, nu=0.3, gamma=4), Sub("mindlin_rescale/force", kt=None, xgammat=0.6, mu=0.4), "viscoelastic",
-                            rolling=Sub("sds", k=2e3, gamma=5, mu=0.1), twisting=Sub("marshall"))
-CLASSIC = lsdcd.Law("hooke/history", kn=1e4, kt=4e3, gamman=30, xmu=0.5, dampflag=1)
-
-
-def boxed():
-    """A bumpy floor, four sides as one mesh, a paddle that turns, and a plate on a spring."""
-    bumps = lsdcd.Mesh(*sheet(12, 3.0, lambda x, y: 0.15 * math.sin(2 * x) * math.cos(3 * y)))
-    corners = [(-2.5, -2.5), (2.5, -2.5), (2.5, 2.5), (-2.5, 2.5)]
-    vertices = [(*c, z) for z in (-1, 4) for c in corners]
-    sides = lsdcd.Mesh(np.array(vertices, float), [f for k in range(4) for f in ((k, (k + 1) % 4, k + 4), ((k + 1) % 4, (k + 1) % 4 + 4, k + 4))])
-    paddle = square((-1.5, 0, -0.2), (1.5, 0, -0.2), (1.5, 0, 1), (-1.5, 0, 1))
-    plate = square((-2, -2, 0.3), (-1, -2, 0.3), (-1, -1, 0.3), (-2, -1, 0.3))
-    body = lsdcd.RigidBody(mass=5, inertia=(1, 1, 2, 0, 0, 0), joint="slider", axis=(0, 0, 1), spring=(500, 5, 0))
-    return [lsdcd.WallMesh(bumps), lsdcd.WallMesh(sides), lsdcd.WallMesh(paddle, motions=[lsdcd.Motion.rotate((0, 0, 0), (0, 0, 1), 1.5)]),
-            lsdcd.WallMesh(plate, body=body)]
-
-
 def test_sums():
     """Grains with several contacts at several meshes, over edges, on a body: what contacts dissipate in each step, and in their lives, adds up to the
     totals of each mesh, by cause."""
     for name, law in (("rough", ROUGH), ("sticky", STICKY), ("classic", CLASSIC)):
-        wall, grains, ledger = wall_of(law, boxed()), bed(7), Ledger(4)
+        wall, grains, ledger = wall_of(law, BOXED, LISTED), bed(7), Ledger(4)
         grains.push(wall, setup=True)
         most = 0
         for _ in range(1500):
@@ -151,7 +148,7 @@ def test_sums_of_others():
     quaternions /= np.linalg.norm(quaternions, axis=1)[:, None]
     grains.shapes = {"half_axes": half, "quaternions": quaternions,
                      "inertia": grains.mass[:, None] / 5 * ((half**2).sum(axis=1)[:, None] - half**2)}
-    wall, ledger = wall_of(CLASSIC, boxed()[:3], shapes=True), Ledger(3)
+    wall, ledger = wall_of(CLASSIC, PARTS, LISTED, "shapes"), Ledger(3)
     for _ in range(2000):
         grains.omega[:] = 0    # they bounce and slide as they lie
         grains.step(wall)
@@ -159,7 +156,7 @@ def test_sums_of_others():
     ledger.check("ellipsoids", wall, 20)
 
     nodes, faces = sheet(6)
-    wall = wall_of(ROUGH, [lsdcd.WallMesh(lsdcd.Mesh(nodes, faces), nodes_by_caller=True), boxed()[1]])
+    wall = wall_of(ROUGH, "mesh $sheet nodes caller mesh $sides", LISTED, sheet=lsdcd.Mesh(nodes, faces))
     grains, ledger = bed(9), Ledger(2)
     for k in range(800):
         if k % 100 == 50:
@@ -177,7 +174,7 @@ def test_bounce():
     which it has ended, and there is none after it. Of 200 steps the dashpot begins with a force, within one: a part of 1/200 at most."""
     kn, e, n = 1e4, 0.5, 200
     gamma = -2 * math.log(e) / math.sqrt(math.pi**2 + math.log(e)**2) * math.sqrt(kn)
-    wall = wall_of(lsdcd.Law("hooke", kn=kn, kt=0, gamman=gamma, gammat=0, xmu=0, dampflag=0), [lsdcd.WallMesh(FLOOR)])
+    wall = wall_of(f"hooke {kn} 0 {gamma} 0 0 0 mesh $floor", LISTED)
     dt = math.pi / math.sqrt(kn - gamma**2 / 4) / n
     grains = Grains([[0.3, 0.2, 0.5 + 5.5 * dt]], [0, 0, -1], dt=dt)
     ends = []
@@ -197,10 +194,9 @@ def test_groove():
     """A block (a sphere that cannot turn) that is pressed into a groove of two unlike planes and drawn along it at speed v: each contact dissipates mu F v
     with its own F, by the slider, and mu F s since it began to slide."""
     mu, speed, dt = 0.3, 0.7, 1e-3
-    law = lsdcd.Law("hooke/history", kn=1e4, kt=5e3, gamman=20, xmu=mu, dampflag=1)
     flat = square((-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0))
     steep = square((-9, 0, -9), (9, 0, -9), (9, 0, 9), (-9, 0, 9))
-    wall = wall_of(law, [lsdcd.WallMesh(flat), lsdcd.WallMesh(steep)], corner="sum")
+    wall = wall_of(f"hooke/history 1e4 5e3 20 NULL {mu} 1 mesh $flat mesh $steep corner sum", LISTED, flat=flat, steep=steep)
     x, v, one = np.array([[-1.0, 0.48, 0.47]]), np.array([[speed, 0, 0]]), np.ones(1)
     zero, before = np.zeros((1, 3)), None
     for k in range(1000):
@@ -219,7 +215,7 @@ def test_groove():
 def test_seams():
     """A contact goes on over the seams of a mesh, and ends where another mesh begins."""
     right = square((2, -2, 0), (6, -2, 0), (6, 2, 0), (2, 2, 0))
-    wall = wall_of(CLASSIC, [lsdcd.WallMesh(lsdcd.Mesh(*sheet(8, 2.0))), lsdcd.WallMesh(right)])
+    wall = wall_of(CLASSIC, "mesh $left mesh $right", LISTED, left=lsdcd.Mesh(*sheet(8, 2.0)), right=right)
     grains, ledger, ends = Grains([[-1.5, 0.1, 0.49]], [2, 0.3, 0], gravity=(0, 0, -100)), Ledger(2), []
     for _ in range(2700):
         grains.step(wall)
@@ -247,22 +243,22 @@ class Scene:
 def test_kept():
     """What contacts have dissipated follows spheres that get other places, and goes on from saved numbers; a wall that lists none takes up springs of one
     that does, and the other way round."""
-    first = Scene(wall_of(ROUGH, boxed()))
+    first = Scene(wall_of(ROUGH, BOXED, LISTED))
     first.run(800)
     saved = first.wall.save()
 
-    def from_there(listed=True):
-        scene = Scene(wall_of(ROUGH, boxed()) if listed else lsdcd.Wall(lsdcd.WallSpec(ROUGH, boxed(), energy=True)), first)
+    def from_there(books=LISTED):
+        scene = Scene(wall_of(ROUGH, BOXED, books), first)
         scene.wall.restore(saved)
         return scene
-    again, unlisted, moved = from_there(), from_there(listed=False), from_there()
+    again, unlisted, moved = from_there(), from_there("energy"), from_there()
     wanted = first.run(200)
     found = again.run(200)
     fact("saved numbers go on bit for bit", all(np.array_equal(getattr(found, name), getattr(wanted, name)) for name in vars(found)))
 
     for _ in range(100):
         unlisted.grains.step(unlisted.wall)
-    listed = Scene(wall_of(ROUGH, boxed()), unlisted)
+    listed = Scene(wall_of(ROUGH, BOXED, LISTED), unlisted)
     listed.wall.restore(unlisted.wall.save())
     found = listed.run(100)
     fact("with the same springs behind a wall without a list", np.array_equal(found.force, wanted.force))
@@ -282,7 +278,7 @@ def test_kept():
 
 def test_without_books():
     """Without `energy` all is 0, and no contact is listed that has ended."""
-    wall = lsdcd.Wall(lsdcd.WallSpec(CLASSIC, [lsdcd.WallMesh(FLOOR)], each_contact=True))
+    wall = wall_of(CLASSIC, "mesh $floor each_contact")
     grains = Grains([[0.3, 0.2, 0.4995]], [1.0, 0, -1])
     ended = 0
     for _ in range(100):

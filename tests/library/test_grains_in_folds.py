@@ -20,6 +20,7 @@ from grain_oracle import Ellipsoid, Shared, Surface, turned_by
 
 EXACT = 1e-12
 KN, KT, GAMMA_N, GAMMA_T, MU, DT = 1000.0, 700.0, 3.0, 5.0, 0.3, 1e-3
+ELASTIC, RUBBING = f"hooke {KN} 0 0 0 0 0", f"hooke {KN} 0 {GAMMA_N} {GAMMA_T} {MU} 1"
 MASS = 1.7
 ABOUT = np.array([0.3, -0.2, 0.5])
 
@@ -64,9 +65,11 @@ class Bed:
             deep = -np.min([grid.shape_distances(x, half, quaternions=quaternions).distance for grid in grids], axis=0)
             x[:, 2] += np.maximum(0.5 * (deep - wanted), -0.3 * wanted) if k > 40 else np.minimum(deep, 0) * 0.9
 
-    def wall(self, law, which=None, **more):
-        meshes = which or [lsdcd.WallMesh(lsdcd.Mesh(np.array(v, float), f)) for v, f in self.meshes]
-        return lsdcd.Wall(lsdcd.WallSpec(law, meshes, shapes=True, each_contact=True, **more))
+    def wall(self, law, of_mesh="", **values):
+        """With `of_mesh` behind each mesh, and `values` in it."""
+        meshes = {f"part{k}": lsdcd.Mesh(np.array(v, float), f) for k, (v, f) in enumerate(self.meshes)}
+        words = " ".join(f"mesh ${name} {of_mesh}" for name in meshes)
+        return lsdcd.Wall(f"{law} {words} shapes each_contact", values=meshes | values)
 
     def step(self, wall, x=None, v=None, quaternions=None, **more):
         n = len(self.x)
@@ -167,18 +170,15 @@ def test_paths_of_a_wall():
     couples = [np.abs(s.couples(np.ones(len(s.overlap)))).max() / s.overlap.max()**2 for s in bed.shared]
     fact("grains have 2 contacts and more, some fade, and some have couples", several.count(2) > 20 and sum(k > 2 for k in several) > 4 and
          sum(s.fade.max() > 0.01 for s in bed.shared) > 4 and sum(c > 0.01 for c in couples) > 10, (several, couples))
-    kinds = {"hooke": (lsdcd.Law("hooke", kn=KN, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0), elastic),
-             "hooke with damping and friction": (lsdcd.Law("hooke", kn=KN, kt=0, gamman=GAMMA_N, gammat=GAMMA_T, xmu=MU, dampflag=1), rubbing),
-             "hertz/history": (lsdcd.Law("hertz/history", kn=KN, kt=KT, gamman=GAMMA_N, gammat=GAMMA_T, xmu=MU, dampflag=1), hertzian)}
-    for name, (law, own) in kinds.items():
+    for name, law, own in (("hooke", ELASTIC, elastic), ("hooke with damping and friction", RUBBING, rubbing),
+                           ("hertz/history", f"hertz/history {KN} {KT} {GAMMA_N} {GAMMA_T} {MU} 1", hertzian)):
         wall = bed.wall(law)
         forces, couples = check_pushes(name, bed, own, *bed.step(wall))
         check_totals(name, bed, wall, forces, couples)
         check_contacts(name, bed, wall, forces)
 
     # Energy: each contact bears l = w d, and the sum of d l / 2 is that of the formula where none fades more than it bears.
-    law, _ = kinds["hooke"]
-    wall = bed.wall(law)
+    wall = bed.wall(ELASTIC)
     bed.step(wall)
     energy = KN * sum(s.overlap @ s.pressed - s.pressed @ s.matrix @ s.pressed / 2 for s in bed.shared)
     at_most("hooke: energy", abs(wall.totals().elastic_energy / energy - 1), EXACT)
@@ -206,8 +206,7 @@ def test_several_meshes():
     bed = Bed(3, [lambda random: bumpy(random, height=0.15)] * 2, 60)
     both = sum(len(set(s.surface)) == 2 for s in bed.shared)
     fact("many grains touch both meshes", both > 10, both)
-    for name, law, own in (("two meshes", lsdcd.Law("hooke", kn=KN, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0), elastic),
-                           ("two meshes with friction", lsdcd.Law("hooke", kn=KN, kt=0, gamman=GAMMA_N, gammat=GAMMA_T, xmu=MU, dampflag=1), rubbing)):
+    for name, law, own in (("two meshes", ELASTIC, elastic), ("two meshes with friction", RUBBING, rubbing)):
         wall = bed.wall(law)
         forces, couples = check_pushes(name, bed, own, *bed.step(wall))
         check_totals(name, bed, wall, forces, couples)
@@ -217,16 +216,14 @@ def test_several_meshes():
 def test_meshes_that_move():
     """A pose of the program, a body and a servo: all get the torque that the grains lose."""
     bed = one_mesh()
-    law = lsdcd.Law("hooke", kn=KN, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
     forces, couples = expected(bed, elastic)
-    mesh = lsdcd.Mesh(np.array(bed.meshes[0][0], float), bed.meshes[0][1])
     size = max(np.abs(f).max() for f in forces) * len(forces)
     force = -sum(f.sum(axis=0) for f in forces)
     torque = -sum((np.cross(s.grain.x + s.arm, f) + c).sum(axis=0) for s, f, c in zip(bed.shared, forces, couples))
     couple = sum(c.sum(axis=0) for c in couples)
     fact("the couples are more than roundings of a total", np.abs(couple).max() > 1e4 * EXACT * size, couple)
 
-    wall = bed.wall(law, [lsdcd.WallMesh(mesh, posed_by_caller=True)])
+    wall = bed.wall(ELASTIC, "motion caller")
     q, shift = np.array([0.8, 0.36, -0.48, 0.0]), np.array([0.4, -1.3, 0.7])
     turn = turned_by(q)
     wall.set_pose(0, position=shift, quaternion=q)
@@ -235,7 +232,7 @@ def test_meshes_that_move():
     pushed, twisted = bed.step(wall, bed.x @ turn.T + shift, quaternions=turns)
     check_pushes("a pose", bed, elastic, pushed @ turn, twisted @ turn)
 
-    wall = bed.wall(law, [lsdcd.WallMesh(mesh, body=lsdcd.RigidBody(mass=2, inertia=(3, 3, 3, 0, 0, 0)))])
+    wall = bed.wall(ELASTIC, "body mass 2 com 0 0 0 inertia 3 3 3 0 0 0")
     bed.step(wall, setup=True)
     state = wall.body(0)
     bed.step(wall)
@@ -247,7 +244,7 @@ def test_meshes_that_move():
             np.abs(moved.angular_velocity - DT / 2 / 3 * (torque + total.torque - np.cross(moved.centre, total.force))).max() / (DT * size)), EXACT)
 
     axis, point = np.array([0.6, 0, 0.8]), np.array([0.1, 0.2, -0.3])
-    wall = bed.wall(law, [lsdcd.WallMesh(mesh, servo=lsdcd.Servo(axis, 1.0, 1e-9, turns=True, point=point))])
+    wall = bed.wall(ELASTIC, "servo torque axis $axis through $point 1 vmax 1e-9", axis=axis, point=point)
     bed.step(wall, setup=True)
     at_most("a servo that turns: its push", abs(wall.totals(0).servo_push + axis @ (torque - np.cross(point, force))) / size, EXACT)
 
@@ -255,11 +252,8 @@ def test_meshes_that_move():
 def test_fields_of_triangles():
     """Forces of triangles are those of contacts: they add up to the force of the wall, and have no couple."""
     bed = one_mesh()
-    mesh = lsdcd.Mesh(np.array(bed.meshes[0][0], float), bed.meshes[0][1])
     with tempfile.TemporaryDirectory() as folder:
-        name = str(pathlib.Path(folder) / "wall.vtp")
-        law = lsdcd.Law("hooke", kn=KN, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
-        wall = bed.wall(law, [lsdcd.WallMesh(mesh, fields=(name, 1))])
+        wall = bed.wall(ELASTIC, "mesh_fields $file every 1", file=pathlib.Path(folder) / "wall.vtp")
         bed.step(wall, setup=True)
         bed.step(wall)
         written = next(pathlib.Path(folder).glob("*.vtp"))
@@ -273,8 +267,7 @@ def test_fields_of_triangles():
 def test_rows_of_deep_contacts():
     """The overlap in a row is that of the force, also where a rod is deeper in a plane than its least radius of curvature, 0.2."""
     square = np.array([[-40, -40, 0], [40, -40, 0], [40, 40, 0], [-40, 40, 0]], float)
-    law = lsdcd.Law("hooke", kn=KN, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
-    wall = lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]]))], shapes=True, each_contact=True))
+    wall = lsdcd.Wall(f"{ELASTIC} mesh $square shapes each_contact", square=lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]]))
     tilt, overlap = 0.8, np.array([0.1, 0.3, 0.6, 0.9, 1.15])    # the foot of the last one is outside of the rod
     n, height = len(overlap), math.hypot(5 * math.cos(tilt), math.sin(tilt))
     x = np.column_stack([np.zeros((n, 2)), height - overlap])

@@ -246,9 +246,7 @@ def test_one_shape_and_one_of_each():
 
 def test_shapes_at_walls():
     """An ellipsoid whose long axis is at 45 degrees to a plane, and a sphere beside it, each 0.01 deep."""
-    square = np.array([[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], float)
-    law = lsdcd.Law("hooke", kn=1000, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
-    meshes = [lsdcd.WallMesh(lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]]))]
+    plane = lsdcd.Mesh(np.array([[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], float), [[0, 1, 2], [0, 2, 3]])
     height = math.sqrt(2.5)    # of the support function
     x, still, mass = np.array([[0, 0, height - 0.01], [5, 0, 0.49]]), np.zeros((2, 3)), np.ones(2)
     shapes = {"half_axes": np.array([[2.0, 1, 1], [0, 0, 0]]), "inertia": np.array([[0.4, 1, 1], [0, 0, 0]]),
@@ -259,22 +257,22 @@ def test_shapes_at_walls():
         wall.step(x, still, still, np.array([0, 0.5]), mass, force, torque, dt=1e-3, **more)
         return force, torque
 
-    def wall_of(**more):
-        return lsdcd.Wall(lsdcd.WallSpec(law, meshes, **more))
+    def wall_of(words):
+        return lsdcd.Wall(f"hooke 1000 0 0 0 0 0 mesh $plane {words}", plane=plane)
 
-    force, torque = step(wall_of(shapes=True), **shapes)
+    force, torque = step(wall_of("shapes"), **shapes)
     fact("a wall pushes an ellipsoid at its lowest point, and a sphere beside it", np.allclose(force, [[0, 0, 10]] * 2, rtol=0, atol=1e-11) and
          np.allclose(torque, [[0, -10 * 1.5 / height, 0], [0, 0, 0]], rtol=0, atol=1e-11), (force, torque))
     fact("exponents of 2 are those of an ellipsoid",
-         np.array_equal(step(wall_of(shapes=True), **shapes, exponents=np.full((2, 2), 2.0)), (force, torque)))
+         np.array_equal(step(wall_of("shapes"), **shapes, exponents=np.full((2, 2), 2.0)), (force, torque)))
     boxes = {"half_axes": np.array([[2.0, 1, 1], [0.5, 0.6, 0.5]]), "exponents": np.array([[4.0, 6], [3, 2.5]]),
              "quaternions": np.array([[0.8, 0, 0.6, 0], [0.9, 0.3, 0.2, 0.1]]), "inertia": np.array([[0.4, 1, 1], [0.2, 0.1, 0.3]])}
-    pushed = step(wall_of(shapes=True), **boxes)
+    pushed = step(wall_of("shapes"), **boxes)
     for name, rows in boxes.items():
         columns = np.insert(rows, rows.shape[1], 7, axis=1)[:, :-1]
         fact(f"{name} in the first columns of a table are those of each grain",
-             np.array_equal(step(wall_of(shapes=True), **{**boxes, name: columns}), pushed))
-    each = wall_of(shapes=True, each_contact=True)
+             np.array_equal(step(wall_of("shapes"), **{**boxes, name: columns}), pushed))
+    each = wall_of("shapes each_contact")
     step(each, **shapes)
     wrong = {"half_axes": np.array([[2.0, 1, 1], [-1, 1, 1]]), "quaternions": np.array([[1, 0, 0, 0]] * 2), "inertia": np.ones((2, 3))}
     refused("a wrong shape behind one that lies otherwise", "grain 1: a half-axis", lambda: step(each, **wrong), lsdcd.Error)
@@ -284,17 +282,16 @@ def test_shapes_at_walls():
          found.sphere.tolist() == [0, 1] and np.allclose(found.point, [[1.5 / height, 0, 0], [5, 0, 0]], rtol=0, atol=1e-14) and
          np.allclose(found.overlap, 0.01, rtol=0, atol=1e-14) and np.array_equal(found.force, force), found)
     refused("shapes at a wall without them", "`half_axes` to `inertia` are of a wall whose spec has `shapes`",
-            lambda: step(wall_of(), **shapes), lsdcd.Error)
-    refused("a wall of shapes whose step has none", "`half_axes` is null", lambda: step(wall_of(shapes=True)), lsdcd.Error)
+            lambda: step(wall_of(""), **shapes), lsdcd.Error)
+    refused("a wall of shapes whose step has none", "`half_axes` is null", lambda: step(wall_of("shapes")), lsdcd.Error)
     refused("a quaternion of 0", "quaternions[0] is 0 or no number",
-            lambda: step(wall_of(shapes=True), **{**shapes, "quaternions": np.zeros((2, 4))}), lsdcd.Error)
-    refused("an inertia of 0", "inertia[0] is 0 0 0", lambda: step(wall_of(shapes=True), **{**shapes, "inertia": np.zeros((2, 3))}), lsdcd.Error)
+            lambda: step(wall_of("shapes"), **{**shapes, "quaternions": np.zeros((2, 4))}), lsdcd.Error)
+    refused("an inertia of 0", "inertia[0] is 0 0 0", lambda: step(wall_of("shapes"), **{**shapes, "inertia": np.zeros((2, 3))}), lsdcd.Error)
     refused("a half-axis below 0", "grain 0: a half-axis of a shape is -1",
-            lambda: step(wall_of(shapes=True), **{**shapes, "half_axes": np.array([[2.0, -1, 1], [0, 0, 0]])}), lsdcd.Error)
+            lambda: step(wall_of("shapes"), **{**shapes, "half_axes": np.array([[2.0, -1, 1], [0, 0, 0]])}), lsdcd.Error)
     refused("half-axes whose squares are 0", "grain 1: a half-axis of a shape is 1e-200",
-            lambda: step(wall_of(shapes=True), **{**shapes, "half_axes": np.array([[2.0, 1, 1], [1e-200] * 3])}), lsdcd.Error)
-    refused("shapes with one side", "`side`: ellipsoids have a wall with both sides alone", lambda: wall_of(shapes=True, side="out"),
-            lsdcd.Error)
+            lambda: step(wall_of("shapes"), **{**shapes, "half_axes": np.array([[2.0, 1, 1], [1e-200] * 3])}), lsdcd.Error)
+    refused("shapes with one side", "in 'side', ellipsoids have a wall with both sides alone", lambda: wall_of("shapes side out"), lsdcd.Error)
 
 
 def test_device_path():
@@ -347,10 +344,26 @@ def write_floor(name):
                                   "endloop\nendfacet\nendsolid f\n", encoding="ascii")
 
 
-def on_floor(style="hooke", **numbers):
-    """What a wall of a triangle at z = 0 is made of."""
-    law = lsdcd.Law(style, **{"kn": 1000, "kt": 0, "gamman": 0, "gammat": 0, "xmu": 0, "dampflag": 0, **numbers})
-    return lsdcd.WallSpec(law, [lsdcd.WallMesh(lsdcd.Mesh(np.array([[[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]]])))])
+TRIANGLE = lsdcd.Mesh(np.array([[[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]]]))
+SQUARE = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], float)
+FLOOR = lsdcd.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]])
+HOOKE = "hooke/history 1000 300 20 NULL 0.5 1"
+# Two spheres that touch a floor at z = 0.
+X, RADIUS, MASS = np.array([[0.3, 0.2, 0.49], [1.5, -1, 0.48]]), np.full(2, 0.5), np.ones(2)
+V, OMEGA = np.full((2, 3), 0.25), np.full((2, 3), 0.5)
+
+
+def on_floor(law="hooke 1000 0 0 0 0 0", **more):
+    """A wall of a triangle at z = 0."""
+    return lsdcd.Wall(f"{law} mesh $floor", floor=TRIANGLE, **more)
+
+
+def forces(wall, steps=5, **more):
+    """What it adds to forces and torques of the two spheres in so many steps."""
+    force, torque = np.zeros((2, 3)), np.zeros((2, 3))
+    for _ in range(steps):
+        wall.step(X, V, OMEGA, RADIUS, MASS, force, torque, dt=1e-3, **more)
+    return np.concatenate([force, torque])
 
 
 class Processes:
@@ -396,9 +409,7 @@ def check_copied_arrays(wall, given):
 
 
 def test_specs():
-    """Specs print and are pickled as the call that made them, a mesh has arrays, a wall's meshes have names, and `with` closes."""
-    square = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], float)
-    mesh = lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]])
+    """Specs print and are pickled as the call that made them."""
     axis = np.array([0.0, 0, 1])
     law = lsdcd.Law("hooke", kn=1000, kt=0, gamman=0, gammat=None, xmu=0, dampflag=0)
     granular = lsdcd.Law.granular(lsdcd.SubModel("hertz", kn=1e4, eta=1), lsdcd.SubModel("linear_nohistory", xgammat=1, mu=0.5))
@@ -412,44 +423,46 @@ def test_specs():
          "Motion.rotate(point=(0, 0, 0), axis=array([0., 0., 1.]), period=2.0)" == repr(specs[2]), printed[2])
     again = [pickle.loads(pickle.dumps(spec)) for spec in specs]
     fact("pickled specs print alike", [repr(spec) for spec in again] == printed, again)
-    walls = [lsdcd.Wall(lsdcd.WallSpec(of, [lsdcd.WallMesh(mesh)])) for of in (law, again[0], granular, again[1])]
+    walls = [lsdcd.Wall(lsdcd.WallSpec(of, [lsdcd.WallMesh(FLOOR)])) for of in (law, again[0], granular, again[1])]
     force = np.zeros((4, 1, 3))
     for k, wall in enumerate(walls):
         wall.step(np.array([[0, 0, 0.49]]), np.ones((1, 3)), np.ones((1, 3)), np.full(1, 0.5), np.ones(1), force[k], np.zeros((1, 3)), 1e-3)
     fact("a pickled law has the forces of the first", (force[0] == force[1]).all() and (force[2] == force[3]).all() and
          force[0].any() and (force[0] != force[2]).any(), force)
 
+
+def test_meshes_of_walls():
+    """A mesh has arrays, a wall's meshes have names, and `with` closes."""
     class Others:    # as trimesh has meshes
-        vertices, faces = square, np.array([[0, 1, 2], [0, 2, 3]])
+        vertices, faces = SQUARE, np.array([[0, 1, 2], [0, 2, 3]])
 
     taken = lsdcd.Mesh(Others())
-    fact("a mesh is made of what has vertices and faces", (taken.vertices == mesh.vertices).all() and (taken.faces == mesh.faces).all())
-    fact("vertices and faces are those of the welded mesh", mesh.vertices.shape == (4, 3) and mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3]])
-    fact("a mesh made of a mesh is the same", (lsdcd.Mesh(mesh).vertices == mesh.vertices).all())
+    fact("a mesh is made of what has vertices and faces", (taken.vertices == FLOOR.vertices).all() and (taken.faces == FLOOR.faces).all())
+    fact("vertices and faces are those of the welded mesh", FLOOR.vertices.shape == (4, 3) and FLOOR.faces.tolist() == [[0, 1, 2], [0, 2, 3]])
+    fact("a mesh made of a mesh is the same", (lsdcd.Mesh(FLOOR).vertices == FLOOR.vertices).all())
 
-    lid = lsdcd.WallMesh(mesh, "lid", placement=lsdcd.Placement().move(0, 0, 1), posed_by_caller=True)
-    with lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh), lid])) as wall:
+    with lsdcd.Wall("hooke 1000 0 0 NULL 0 0 mesh $floor mesh $lid move 0 0 1 motion caller", floor=FLOOR, lid=FLOOR) as wall:
         wall.set_pose("lid", position=(0, 0, 2))
         wall.step(np.array([[0, 0, 0.49]]), np.zeros((1, 3)), np.zeros((1, 3)), np.full(1, 0.5), np.ones(1), np.zeros((1, 3)),
                   np.zeros((1, 3)), 1e-3)
         fact("meshes go by their names", (wall.pose("lid") == wall.pose(1)).all() and wall.pose("lid")[2, 3] == 2 and
-             wall.totals("mesh 1").contacts == 1 and wall.totals("lid").contacts == 0)
-        refused("a name that there is not", "no mesh is called; there are 'mesh 1', 'lid'", lambda: wall.pose("cover"), ValueError)
+             wall.totals("floor").contacts == 1 and wall.totals("lid").contacts == 0)
+        refused("a name that there is not", "mesh is 'cover': no mesh is called 'cover': those are floor, lid",
+                lambda: wall.pose("cover"), ValueError)
     refused("a wall after `with`", "this Wall is closed", lambda: wall.totals(), lsdcd.Error)
-    with lsdcd.Mesh(square, [[0, 1, 2]]) as closed:
-        part = lsdcd.WallMesh(closed)
-    refused("a mesh that has been closed", "meshes[0]: its Mesh has been closed", lambda: lsdcd.Wall(lsdcd.WallSpec(law, [part])),
-            ValueError)
+    with lsdcd.Mesh(SQUARE, [[0, 1, 2]]) as closed:
+        pass
+    refused("a mesh that has been closed", "floor: its Mesh has been closed", lambda: lsdcd.Wall(f"{HOOKE} mesh $floor", floor=closed), ValueError)
 
 
 def test_processes():
     """A sphere that slides on a floor at z = 0 goes to another process; the wall of each is in a thread."""
-    spec = on_floor("hooke/history", kt=300, xmu=0.5)
+    slides = "hooke/history 1000 300 0 0 0.5 0"
     dt, speed, packed, told = 1e-3, 0.1, [], [None, None]
     meeting, brought = threading.Barrier(2), [None, None]
 
     def work(rank):
-        wall = lsdcd.Wall(spec, host=Processes(rank, meeting, brought))
+        wall = on_floor(slides, host=Processes(rank, meeting, brought))
 
         def step(n):
             x, v = np.tile([0.0, 1, 0.49], (n, 1)), np.tile([speed, 0, 0], (n, 1))
@@ -493,94 +506,58 @@ def test_processes():
             raise KeyError("no network")
 
     for no_host in (0, [], "x", np.zeros(2), object()):
-        refused(f"{no_host!r} is no host", "without rank", lambda: lsdcd.Wall(spec, host=no_host), TypeError)
+        refused(f"{no_host!r} is no host", "without rank", lambda: on_floor(slides, host=no_host), TypeError)
     fact("a host's arrays have native types", Processes.FORMATS == {"d", "B"}, Processes.FORMATS)
-    refused("what a host raises is raised", "no network", lambda: lsdcd.Wall(spec, host=Breaks(0, None, None)), KeyError)
+    refused("what a host raises is raised", "no network", lambda: on_floor(slides, host=Breaks(0, None, None)), KeyError)
 
 
-def test_wall_specs():
+def test_walls():
     """A pose and totals in closed form, and what is refused. test_wall_against_lammps.py has walls against those of scripts."""
-    square = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], float)
-    mesh = lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]])
-    x, radius, mass = np.array([[0.3, 0.2, 0.49], [1.5, -1, 0.48]]), np.full(2, 0.5), np.ones(2)
-    v, omega = np.full((2, 3), 0.25), np.full((2, 3), 0.5)
+    def wall_of(words=""):
+        return lsdcd.Wall(f"{HOOKE} mesh $floor {words}", floor=FLOOR)
 
-    def forces(wall, steps=5, **more):
-        force, torque = np.zeros((2, 3)), np.zeros((2, 3))
-        for _ in range(steps):
-            wall.step(x, v, omega, radius, mass, force, torque, dt=1e-3, **more)
-        return np.concatenate([force, torque])
-
-    def floor_of(law):
-        return lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh)]))
-
-    hooke = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=20, xmu=0.5, dampflag=1)
-    sub = lsdcd.SubModel
-    with tempfile.TemporaryDirectory() as folder:
-        each = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh)], compute="auto", each_contact=True))
-        fact("a wall that chooses where it computes, and keeps its contacts, has the bits of one that does not",
-             forces(each).tobytes() == forces(floor_of(hooke)).tobytes())
-        last, found = forces(each, 1)[:2], each.contacts()
-        # Overlaps are differences of numbers of order one, and forces kn = 1000 times as much.
-        fact("contacts have the places, overlaps and forces of the spheres", found.sphere.tolist() == [0, 1] and
-             found.mesh.tolist() == [0, 0] and np.allclose(found.point, x * [1, 1, 0], rtol=0, atol=1e-15) and
-             np.allclose(found.overlap, 0.5 - x[:, 2], rtol=0, atol=1e-15) and
-             np.allclose(found.force, last, rtol=0, atol=1e-12), found)
-        refused("contacts that a wall does not keep", "set each_contact", floor_of(hooke).contacts, lsdcd.Error)
-        hit = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh)], impact_speed=0.1))
-        high, down = np.array([[0.3, 0.2, 0.5005], [1.5, -1, 0.5005]]), np.array([[0, 0, -1.0], [0, 0, -2.0]])
-        for k in range(2):
-            hit.step(high + k * down * 1e-3, down, omega * 0, radius, mass, *np.zeros((2, 2, 3)), dt=1e-3)
-        bins, totals = hit.impacts(), hit.totals()
-        fact("two impacts of m v^2/2 are in their bins", bins.impacts[[0, -1]].tolist() == [1, 1] and bins.impacts.sum() == 2 and
-             np.allclose(bins.energy[[0, -1]], [0.5, 2], rtol=1e-12, atol=0) and (totals.impacts, round(totals.impact_energy, 11)) == (2, 2.5) and
-             bins.begins[0] <= 0.5 < bins.ends[0] and bins.begins[-1] <= 2 < bins.ends[-1] and np.array_equal(bins.ends[:-1], bins.begins[1:]), bins)
-        refused("impacts that a wall does not record", "set impact_speed", each.impacts, lsdcd.Error)
-        rubs = lsdcd.Law.granular(sub("hooke", kn=1000, eta=20), sub("linear_history", kt=500, xgammat=1, mu=0.4), "mass_velocity", heat=sub("radius", k=0))
-        taken, lost = np.zeros(2), []
-        for share in (0.25, 0):
-            warm = lsdcd.Wall(lsdcd.WallSpec(rubs, [lsdcd.WallMesh(mesh, surface_velocity=(0.7, 0, 0))], energy=True, friction_heat=share))
-            for k in range(200):
-                heat = np.zeros(2)
-                warm.step(x, v * 0, omega * 0, radius, mass, *np.zeros((2, 2, 3)), dt=1e-3, temperature=np.full(2, 300.0), heat=heat)
-                taken, lost = taken + 1e-3 * heat, warm.totals().dissipated
-            press = 1000 * (0.5 - x[:, 2])
-            fact(f"a share {share} of the power of friction, mu F v, is heat of the spheres", np.allclose(heat, share * 0.4 * press * 0.7, rtol=1e-12, atol=0), heat)
-            if share:
-                fact("and of its work in all", abs(taken.sum() - share * lost[1]) < 1e-12 * lost[1], (taken, lost))
-        refused("heat of friction without books", "give the wall energy", lambda: lsdcd.Wall(lsdcd.WallSpec(rubs, [lsdcd.WallMesh(mesh)], friction_heat=0.5)), lsdcd.Error)
-        materials = os.path.join(folder, "some.lsdcd")
-        with open(materials, "w", encoding="latin-1") as f:
-            f.write("units si\nmaterial glass\nyoungs_modulus 5e4 Pa # Müller\npoissons_ratio 0.23 1\npair glass glass\n"
-                    "restitution 0.9 1\nsliding_friction 0.1 1\n")
-        glass = lsdcd.Law.from_material(materials, "glass")
-        same = lsdcd.Law.granular(sub("hertz/material", E=5e4, e=0.9, nu=0.23), sub("mindlin", xgammat=1, mu=0.1),
-                                  "coeff_restitution")
-        fact("a law of materials has the bits of their numbers", forces(floor_of(glass)).tobytes() == forces(floor_of(same)).tobytes())
-        fact("it tells its numbers", "restitution 0.9 (some.lsdcd line 6)" in glass.report, glass.report)
-        fact("and a source that is no UTF-8, by its byte", "some.lsdcd line 3): M\\xfcller" in glass.report, glass.report)
-        again = pickle.loads(pickle.dumps(glass))
-        fact("it is pickled", forces(floor_of(again)).tobytes() == forces(floor_of(glass)).tobytes(), again)
-        rough = lsdcd.Law.from_material(materials, "glass", tangential=sub("mindlin", xgammat=0.5), damping="tsuji",
-                                        overrides={"restitution": 0.5, ("glass", "youngs_modulus"): 1e4})
-        fact("with other sub-models and numbers", forces(floor_of(rough)).tobytes() == forces(floor_of(lsdcd.Law.granular(
-            sub("hertz/material", E=1e4, e=0.5, nu=0.23), sub("mindlin", xgammat=0.5, mu=0.1), "tsuji"))).tobytes())
-        for says, more, kind in (
-                ("'iron' is not a material of", {"particle": "iron"}, lsdcd.Error),
-                ("restitution = 2 is out of range", {"overrides": {"restitution": 2.0}}, lsdcd.Error),
-                ("restitution of overrides is 'a'", {"overrides": {"restitution": "a"}}, TypeError),
-                ("does not take material constants", {"normal": "hooke"}, lsdcd.Error)):
-            refused(says, says, lambda more=more: lsdcd.Law.from_material(**{"file": materials, "particle": "glass", **more}), kind)
-    body = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, body=lsdcd.RigidBody(mass=1, inertia=(1, 1, 1, 0, 0, 0)))]))
+    each = wall_of("device auto each_contact")
+    fact("a wall that chooses where it computes, and keeps its contacts, has the bits of one that does not",
+         forces(each).tobytes() == forces(wall_of()).tobytes())
+    last, found = forces(each, 1)[:2], each.contacts()
+    # Overlaps are differences of numbers of order one, and forces kn = 1000 times as much.
+    fact("contacts have the places, overlaps and forces of the spheres", found.sphere.tolist() == [0, 1] and
+         found.mesh.tolist() == [0, 0] and np.allclose(found.point, X * [1, 1, 0], rtol=0, atol=1e-15) and
+         np.allclose(found.overlap, 0.5 - X[:, 2], rtol=0, atol=1e-15) and
+         np.allclose(found.force, last, rtol=0, atol=1e-12), found)
+    refused("contacts that a wall does not keep", "set each_contact", wall_of().contacts, lsdcd.Error)
+    hit = wall_of("impacts 0.1")
+    high, down = np.array([[0.3, 0.2, 0.5005], [1.5, -1, 0.5005]]), np.array([[0, 0, -1.0], [0, 0, -2.0]])
+    for k in range(2):
+        hit.step(high + k * down * 1e-3, down, OMEGA * 0, RADIUS, MASS, *np.zeros((2, 2, 3)), dt=1e-3)
+    bins, totals = hit.impacts(), hit.totals()
+    fact("two impacts of m v^2/2 are in their bins", bins.impacts[[0, -1]].tolist() == [1, 1] and bins.impacts.sum() == 2 and
+         np.allclose(bins.energy[[0, -1]], [0.5, 2], rtol=1e-12, atol=0) and (totals.impacts, round(totals.impact_energy, 11)) == (2, 2.5) and
+         bins.begins[0] <= 0.5 < bins.ends[0] and bins.begins[-1] <= 2 < bins.ends[-1] and np.array_equal(bins.ends[:-1], bins.begins[1:]), bins)
+    refused("impacts that a wall does not record", "set impact_speed", each.impacts, lsdcd.Error)
+    rubs = "granular hooke 1000 20 tangential linear_history 500 1 0.4 damping mass_velocity heat radius 0 mesh $floor temperature 0"
+    taken, lost = np.zeros(2), []
+    for share in (0.25, 0):
+        warm = lsdcd.Wall(f"{rubs} surface_vel 0.7 0 0 energy friction_heat {share}", floor=FLOOR)
+        for k in range(200):
+            heat = np.zeros(2)
+            warm.step(X, V * 0, OMEGA * 0, RADIUS, MASS, *np.zeros((2, 2, 3)), dt=1e-3, temperature=np.full(2, 300.0), heat=heat)
+            taken, lost = taken + 1e-3 * heat, warm.totals().dissipated
+        press = 1000 * (0.5 - X[:, 2])
+        fact(f"a share {share} of the power of friction, mu F v, is heat of the spheres",
+             np.allclose(heat, share * 0.4 * press * 0.7, rtol=1e-12, atol=0), heat)
+        if share:
+            fact("and of its work in all", abs(taken.sum() - share * lost[1]) < 1e-12 * lost[1], (taken, lost))
+    refused("heat of friction without books", "give the wall energy", lambda: lsdcd.Wall(f"{rubs} friction_heat 0.5", floor=FLOOR), lsdcd.Error)
+    body = wall_of("body mass 1 com 0 0 0 inertia 1 1 1 0 0 0")
     refused("a body takes no pose", "a body moves by what acts on it", lambda: body.set_pose(0), lsdcd.Error)
-    saved = floor_of(hooke).save()
-    other = floor_of(lsdcd.Law("hooke/history", kn=2000, kt=300, gamman=20, xmu=0.5, dampflag=1))
+    saved = wall_of().save()
+    other = lsdcd.Wall("hooke/history 2000 300 20 NULL 0.5 1 mesh $floor", floor=FLOOR)
     refused("data of a wall with another law are refused", "the law is hooke/history with 2000 ", lambda: other.restore(saved),
             lsdcd.Error)
     other.restore(saved, what_fits=True)
-    plate = lsdcd.RigidBody(mass=2, inertia=(1, 1, 2, 0, 0, 0), joint="slider", axis=(0, 0, 1), load=(0, 0, -3),
-                            limits=(-1, 1), velocity=(0, 0, 0.5))
-    falls = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "plate", body=plate)]))
+    falls = wall_of("""body mass 2 com 0 0 0 inertia 1 1 2 0 0 0 joint slider 0 0 1 load 0 0 -3
+                       limits -1 1 velocity 0 0 0.5""")
     forces(falls, 10)
     state = falls.body(0)
     fact("a body is asked for", state.centre.shape == (3,) and state.quaternion.tolist() == [1, 0, 0, 0] and
@@ -592,22 +569,22 @@ def test_wall_specs():
     falls.set_body(0, lsdcd.RigidBody(joint="slider", axis=(0, 0, 1), load=(0, 0, 400)))
     forces(falls, 1)
     fact("and another load", falls.body(0).velocity[2] > 0, falls.body(0))
-    posed = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "lid", posed_by_caller=True)]))
+    posed = wall_of("motion caller")
     posed.set_pose(0, position=(0, 0, 0.01), velocity=(0, 0, 0.5))
     force = forces(posed, 1)
     wanted = np.array([1000 * 0.02 + 20 * 0.25, 1000 * 0.03 + 20 * 0.25])    # kn overlap + gamman m v
     fact("a plate that is posed has the force in closed form", np.allclose(force[:2, 2], wanted, rtol=0, atol=1e-10), force)
     fact("and the pose", posed.pose(0)[2, 3] == 0.01, posed.pose(0))
     about = np.array([3, -2, 1])
-    total, torque = posed.totals(about=about), (np.cross(x - about, force[:2]) + force[2:]).sum(axis=0)
+    total, torque = posed.totals(about=about), (np.cross(X - about, force[:2]) + force[2:]).sum(axis=0)
     fact("force and torque are those of the spheres reversed", np.allclose(total.force, -force[:2].sum(axis=0), rtol=0, atol=1e-10) and
          np.allclose(total.torque, -torque, rtol=0, atol=1e-9), (total, torque))
     fact("it stays there, with its velocities", np.allclose(forces(posed, 1)[:2, 2], wanted, rtol=0, atol=1e-10))
     # The plane in two meshes that meet at x = 1, with a sphere on each.
-    parts = [lsdcd.Mesh(np.clip(square, (lo, -5, 0), (hi, 5, 0)), [[0, 1, 2], [0, 2, 3]]) for lo, hi in ((-5, 1), (1, 5))]
-    split = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(part) for part in parts]))
+    parts = [lsdcd.Mesh(np.clip(SQUARE, (lo, -5, 0), (hi, 5, 0)), [[0, 1, 2], [0, 2, 3]]) for lo, hi in ((-5, 1), (1, 5))]
+    split = lsdcd.Wall(f"{HOOKE} mesh $left mesh $right", left=parts[0], right=parts[1])
     force = forces(split, 1)
-    torque = np.cross(x - about, force[:2]) + force[2:]
+    torque = np.cross(X - about, force[:2]) + force[2:]
     of_each, of_all = [split.totals(k, about=about) for k in (0, 1)], split.totals(about=about)
     fact("force and torque of one mesh are those of its sphere", all(
         t.contacts == 1 and np.allclose(t.force, -force[k], rtol=0, atol=1e-10) and np.allclose(t.torque, -torque[k], rtol=0, atol=1e-9)
@@ -616,7 +593,7 @@ def test_wall_specs():
          np.allclose(of_all.force, of_each[0].force + of_each[1].force, rtol=0, atol=1e-10) and
          np.allclose(of_all.torque, of_each[0].torque + of_each[1].torque, rtol=0, atol=1e-9), (of_all, of_each))
 
-    lifted = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "sheet", nodes_by_caller=True)]))
+    lifted = wall_of("nodes caller")
     nodes = lifted.nodes(0)
     speed = np.zeros_like(nodes)
     speed[:, 2] = 0.5
@@ -627,11 +604,11 @@ def test_wall_specs():
     fact("its nodes have the forces of the spheres", np.allclose(lifted.node_forces(0).sum(axis=0), -force[:2].sum(axis=0), rtol=0,
                                                                  atol=1e-10), lifted.node_forces(0))
 
-    wears = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "liner")], wear=("archard", 1e-3, 1), wear_deform=(3, 2)))
+    wears = wall_of("wear archard 1e-3 1 deform every 3 factor 2")
     forces(wears, 2)
     worn = wears.totals().worn_volume
     forces(wears, 1)
-    total, sunk = wears.totals(), wears.nodes(0) - square
+    total, sunk = wears.totals(), wears.nodes(0) - SQUARE
     # Both triangles have the area 50: the volume between is that times the mean of their corners.
     between = -50 / 3 * sum(sunk[[0, 1, 2, 0, 2, 3], 2])
     fact("wear moves the vertices by the factor times what has worn", worn > 0 and total.held_back_volume == 0 and
@@ -639,21 +616,79 @@ def test_wall_specs():
          (worn, total.removed_volume, between))
 
     for says, call, kind in (
-            ("is zero or not finite", lambda: lsdcd.Placement().scale(0), lsdcd.Error),
-            ("scale takes one factor or three", lambda: lsdcd.Placement().scale(1, 2), ValueError),
+            ("in 'scale', the factor must not be zero", lambda: wall_of("scale 0"), lsdcd.Error),
+            ("the z factor (give one factor or three) is missing", lambda: wall_of("scale 1 2"), lsdcd.Error),
             ("quaternion has the length 2", lambda: posed.set_pose(0, quaternion=(2, 0, 0, 0)), lsdcd.Error),
             ("position has the shape (2,), not (3,)", lambda: posed.set_pose(0, position=(0, 0)), ValueError),
             ("positions has the shape (1, 3)", lambda: lifted.set_nodes(0, [[0, 0, 0]]), ValueError),
             ("has no nodes that move", lambda: posed.nodes(0), lsdcd.Error)):
         refused(f"refused: {says}", says, call, kind)
+
+
+def write_glass(folder):
+    materials = folder / "some.lsdcd"
+    materials.write_text("units si\nmaterial glass\nyoungs_modulus 5e4 Pa # Müller\npoissons_ratio 0.23 1\npair glass glass\n"
+                         "restitution 0.9 1\nsliding_friction 0.1 1\n", encoding="latin-1")
+    return materials
+
+
+def test_materials(folder):
+    """Numbers of a file of materials, beside the same ones in words."""
+    materials, log = write_glass(folder), []
+
+    def of_glass(words, **more):
+        return lsdcd.Wall(f"granular material $file {words} mesh $floor", file=materials, floor=FLOOR, **more)
+
+    def of_numbers(words):
+        return lsdcd.Wall(f"granular {words} mesh $floor", floor=FLOOR)
+
+    same = of_numbers("hertz/material 5e4 0.9 0.23 tangential mindlin NULL 1 0.1 damping coeff_restitution")
+    glass = of_glass("glass", show=lambda text, warning: log.append(text))
+    fact("materials have the bits of their numbers", forces(glass).tobytes() == forces(same).tobytes())
+    fact("the log tells them", "restitution 0.9 (some.lsdcd line 6)" in "".join(log), log)
+    fact("and a source that is no UTF-8, by its byte", "some.lsdcd line 3): M\\xfcller" in "".join(log), log)
+    rough = of_glass("glass with restitution 0.5 glass youngs_modulus 1e4 tangential mindlin NULL 0.5 NULL damping tsuji")
+    same = of_numbers("hertz/material 1e4 0.5 0.23 tangential mindlin NULL 0.5 0.1 damping tsuji")
+    fact("with other sub-models and numbers", forces(rough).tobytes() == forces(same).tobytes())
+    for says, words in (("'iron' is not a material of", "iron"), ("restitution = 2 is out of range", "glass with restitution 2"),
+                        ("restitution must be a number, not 'a'", "glass with restitution a")):
+        refused(says, says, lambda words=words: of_glass(words), lsdcd.Error)
+    refused("a stiffness is no number of a material", "the normal model 'hooke' does not take material constants",
+            lambda: lsdcd.Wall("granular hooke material $file glass mesh $floor", file=materials, floor=FLOOR), lsdcd.Error)
+
+
+def test_laws_of_materials(folder):
+    """The same of Law.from_material()."""
+    sub, materials = lsdcd.SubModel, str(write_glass(folder))
+
+    def floor_of(law):
+        return lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(FLOOR)]))
+
+    glass = lsdcd.Law.from_material(materials, "glass")
+    same = lsdcd.Law.granular(sub("hertz/material", E=5e4, e=0.9, nu=0.23), sub("mindlin", xgammat=1, mu=0.1),
+                              "coeff_restitution")
+    fact("a law of materials has the bits of their numbers", forces(floor_of(glass)).tobytes() == forces(floor_of(same)).tobytes())
+    fact("it tells its numbers", "restitution 0.9 (some.lsdcd line 6)" in glass.report, glass.report)
+    fact("and a source that is no UTF-8, by its byte", "some.lsdcd line 3): M\\xfcller" in glass.report, glass.report)
+    again = pickle.loads(pickle.dumps(glass))
+    fact("it is pickled", forces(floor_of(again)).tobytes() == forces(floor_of(glass)).tobytes(), again)
+    rough = lsdcd.Law.from_material(materials, "glass", tangential=sub("mindlin", xgammat=0.5), damping="tsuji",
+                                    overrides={"restitution": 0.5, ("glass", "youngs_modulus"): 1e4})
+    fact("with other sub-models and numbers", forces(floor_of(rough)).tobytes() == forces(floor_of(lsdcd.Law.granular(
+        sub("hertz/material", E=1e4, e=0.5, nu=0.23), sub("mindlin", xgammat=0.5, mu=0.1), "tsuji"))).tobytes())
+    for says, more, kind in (
+            ("'iron' is not a material of", {"particle": "iron"}, lsdcd.Error),
+            ("restitution = 2 is out of range", {"overrides": {"restitution": 2.0}}, lsdcd.Error),
+            ("restitution of overrides is 'a'", {"overrides": {"restitution": "a"}}, TypeError),
+            ("does not take material constants", {"normal": "hooke"}, lsdcd.Error)):
+        refused(says, says, lambda more=more: lsdcd.Law.from_material(**{"file": materials, "particle": "glass", **more}), kind)
     names = {(row.field, row.name) for row in lsdcd.sub_models()}
     fact("sub-models are listed", {("style", "hooke/history"), ("tangential", "mindlin"), ("rolling", "cdt")} <= names, names)
 
 
 def test_wall_arrays():
     """Arrays of spheres of other libraries, and what a wall refuses of them."""
-    spec = on_floor()
-    wall = lsdcd.Wall(spec)
+    wall = on_floor()
     given = {name: np.zeros((1, 3)) for name in ("x", "v", "omega", "force", "torque")}
     given |= {"radius": np.full(1, 0.5), "mass": np.ones(1), "dt": 1e-3}
     given["x"][0, 2] = 0.49
@@ -680,31 +715,31 @@ def test_wall_arrays():
     for name, kind in (("mass", 1), ("torque", 3)):
         at = both[6:8] if kind == 1 else both[2:8].reshape(2, 3)
         at[...] = 1
-        shared = lsdcd.Wall(spec)
+        shared = on_floor()
         if kind == 1:
             shared.step(**{**many, name: at, "force": both[:6].reshape(2, 3)})
             fact("arrays side by side in one are taken", abs(both[2] - 10) < 1e-11, both)
         refused(f"a force of which a part is {name} is refused", f"and `{name}` share memory",
                 lambda: shared.step(**{**many, name: at, "force": both[1:7].reshape(2, 3)}), lsdcd.Error)
     wide = np.zeros((2, 6))
-    lsdcd.Wall(spec).step(**{**many, "force": wide[:, :3], "torque": wide[:, 3:]})
+    on_floor().step(**{**many, "force": wide[:, :3], "torque": wide[:, 3:]})
     fact("columns side by side in one array are taken", abs(wide[0, 2] - 10) < 1e-11, wide)
     refused("columns that overlap are refused", "force shares memory with torque",
-            lambda: lsdcd.Wall(spec).step(**{**many, "force": wide[:, :3], "torque": wide[:, 2:5]}), ValueError)
+            lambda: on_floor().step(**{**many, "force": wide[:, :3], "torque": wide[:, 2:5]}), ValueError)
     refused("one row for all forces is refused", "force has the strides (0, 8)",
-            lambda: lsdcd.Wall(spec).step(**{**many, "force": np.lib.stride_tricks.as_strided(both, (2, 3), (0, 8))}), ValueError)
+            lambda: on_floor().step(**{**many, "force": np.lib.stride_tricks.as_strided(both, (2, 3), (0, 8))}), ValueError)
     for strides in ((8, 8), (16, 8), (32, 16), (-8, 8), (20, 8)):
         rows = np.lib.stride_tricks.as_strided(np.zeros(12)[2:], (2, 3), strides)
         refused(f"rows of forces that overlap by {strides} are refused", "numbers share memory",
-                lambda rows=rows: lsdcd.Wall(spec).step(**{**many, "force": rows}), ValueError)
+                lambda rows=rows: on_floor().step(**{**many, "force": rows}), ValueError)
     refused("a radius up to which nothing is found is refused", "is 1e+60, beyond 1e+36",
-            lambda: lsdcd.Wall(spec).step(**{**given, "radius": np.full(1, 1e60)}), lsdcd.Error)
+            lambda: on_floor().step(**{**given, "radius": np.full(1, 1e60)}), lsdcd.Error)
     large = {**given, "force": np.zeros((1, 3)), "radius": np.full(1, 1e30)}
-    lsdcd.Wall(spec).step(**large)
+    on_floor().step(**large)
     fact("the largest radii have their force", large["force"][0, 2] == 1e3 * 1e30, large["force"])
     if not lsdcd._lib.lsdcd_has_cuda():
-        refused("a wall on a device needs one", "use LSDCD_CPU", lambda: lsdcd.Wall(spec, device="cuda"), lsdcd.Error)
-    refused("a stream needs a device", "stream is given", lambda: lsdcd.Wall(spec, stream=7), lsdcd.Error)
+        refused("a wall on a device needs one", "use LSDCD_CPU", lambda: on_floor(device="cuda"), lsdcd.Error)
+    refused("a stream needs a device", "stream is given", lambda: on_floor(stream=7), lsdcd.Error)
 
 
 def test_closed_in_a_callback():
@@ -728,11 +763,10 @@ def test_closed_in_a_callback():
         refused(f"{name} is not closed", says, lambda thing=thing, call=call: call(closing(thing)), lsdcd.Error)
         fact("and goes on", bool(thing._handle))
     fact("its answers are those of before", np.allclose(grid.query(points).distance, points[:, 2], rtol=0, atol=1e-15))
-    law = lsdcd.Law("hooke", kn=1e3, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
     for name, act in (("a wall in `show` is not closed", lambda: wall.close()), ("and makes no step there", lambda: wall.totals())):
         acts = []
-        wall = lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh)]), lo=(-1, -1, -1), hi=(1, 1, 1),
-                          show=lambda text, warning: [act() for act in acts])
+        wall = lsdcd.Wall("hooke 1e3 0 0 0 0 0 mesh $floor", lo=(-1, -1, -1), hi=(1, 1, 1), show=lambda text, warning: [act() for act in acts],
+                          floor=mesh)
         acts.append(act)
         spheres = [np.zeros((1, 3)) for _ in range(5)]
         spheres[0][0] = (0, 0, 9)    # outside of the box, which is warned of
@@ -745,10 +779,8 @@ def test_closed_in_a_callback():
 
 def check_memory_of_shapes():
     """Forces are not added into what makes the grains."""
-    square = np.array([[-3, -3, 0], [3, -3, 0], [3, 3, 0], [-3, 3, 0]], float)
-    law = lsdcd.Law("hooke", kn=2e3, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
     for name, written, start in (("half_axes", "force", 0), ("inertia", "torque", 0), ("exponents", "force", 1), ("quaternions", "force", 1)):
-        wall = lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]]))], shapes=True))
+        wall = lsdcd.Wall("hooke 2e3 0 0 0 0 0 mesh $floor shapes", floor=FLOOR)
         given = {key: np.zeros((3, 3)) for key in ("x", "v", "omega", "force", "torque")}
         given |= {"radius": np.ones(3), "mass": np.ones(3), "half_axes": np.full((3, 3), 0.5), "inertia": np.full((3, 3), 0.1),
                   "exponents": np.full((3, 2), 2.0), "quaternions": np.tile([1.0, 0, 0, 0], (3, 1))}
@@ -791,7 +823,6 @@ def test_given_values():
     refused("objects that are texts are refused", "object, not real", lambda: grid.query(points.astype(str).astype(object)))
     fact("objects that are numbers are taken", grid.query(points.astype(object)).distance.tolist() == [0.5])
 
-    spec = on_floor()
     for name, take in (("query", lambda n: grid.query(points, threads=n)), ("grid", lambda n: mesh.grid(threads=n)),
                        ("contacts", lambda n: near.contacts(points, 1.0, threads=n)),
                        ("body", lambda n: lsdcd.Body(mesh, mesh, threads=n)),
@@ -799,11 +830,11 @@ def test_given_values():
         refused(f"{name}: 2**40 threads are refused", f"threads is {2**40}", lambda: take(2**40), ValueError)
         refused(f"{name}: half a thread is refused", "not a whole number", lambda: take(1.5))
         take(np.int64(1))
-    refused("a mesh's number is not cut off", "mesh is", lambda: lsdcd.Wall(spec).totals(2**32), ValueError)
+    refused("a mesh's number is not cut off", "mesh is", lambda: on_floor().totals(2**32), ValueError)
     for name, take in (("a file", lambda: lsdcd.Mesh("floor.stl\0x")), ("a cache", lambda: mesh.grid(cutoff=1, cache="a\0b"))):
         refused(f"a NUL in {name} is refused", "has a NUL", take, ValueError)
 
-    wall = lsdcd.Wall(spec)
+    wall = on_floor()
     given = {name: np.zeros((2, 3)) for name in ("v", "omega", "force", "torque")}
     given |= {"x": np.full((2, 3), 0.4), "radius": np.full(2, 0.5), "mass": np.ones(2), "dt": 1e-3}
     wall.step(**given)
@@ -822,9 +853,8 @@ def test_given_values():
 
 def test_values_that_c_reads_otherwise():
     """Numbers that stand for something else in C, texts as truth, None as a number, and a name that belongs to another law."""
-    sub, style = lsdcd.SubModel, {"kn": 1e4, "gamman": 20, "gammat": 7, "xmu": 0.5, "dampflag": 1}
+    sub = lsdcd.SubModel
     mesh = lsdcd.Mesh(np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float), [[0, 1, 2], [0, 2, 3]])
-    law = lsdcd.Law("hooke/history", kt=1, **style)
     friction = sub("mindlin", kt=1, xgammat=1, mu=0.5)
     for says, call in (
             ("kt of mindlin is -1.0", lambda: lsdcd.Law.granular(sub("hertz/material", E=1, e=1, nu=0), sub(
@@ -848,12 +878,11 @@ def test_values_that_c_reads_otherwise():
     refused("None is no coordinate", "not real numbers", lambda: mesh.grid().query([[None, 0, 0], [0, 0, 1]]))
 
     # One buffer for two motions, at 1 and 2: after 0.1 the meshes are at 0.1 and 0.2.
-    rows, motions, none = np.zeros((2, 4)), [], np.zeros((0, 3))
-    for speed in (1, 2):
-        rows[1] = 1, 0, 0, speed
-        motions.append(lsdcd.Motion.table(rows, straight=True))
-    moved = lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh, motions=[motion], placement=lsdcd.Placement().move(0, 0, 9 * k))
-                                            for k, motion in enumerate(motions)]))
+    rows, none = np.array([[0, 0, 0, 0], [1, 0, 0, 1.0]]), np.zeros((0, 3))
+    moved = lsdcd.Wall("hooke/history 1e4 1 20 7 0.5 1 mesh $first motion table $rows linear mesh $second move 0 0 9",
+                       first=mesh, second=mesh, rows=rows)
+    rows[1] = 1, 0, 0, 2
+    moved.change("mesh second motion table $rows linear", rows=rows)
     for _ in range(10):
         moved.step(none, none, none, np.zeros(0), np.zeros(0), none.copy(), none.copy(), 0.01)
     fact("a table of motion is a copy of its rows", abs(moved.pose(0)[2, 3] - 0.1) < 1e-14 and abs(moved.pose(1)[2, 3] - 0.2) < 1e-14,
@@ -871,7 +900,7 @@ def test_walls_are_freed():
     gc.disable()
     try:
         for words in ({}, {"show": lambda text, warning: None}, {"host": Host()}):
-            wall = lsdcd.Wall(on_floor(), **words)
+            wall = on_floor(**words)
             wall.totals()
             alive = weakref.ref(wall)
             del wall
@@ -882,19 +911,18 @@ def test_walls_are_freed():
 
 def test_what_begins_wrongly():
     """Before anything is made: limits, tables, threads, the library itself."""
-    law = lsdcd.Law("hooke", kn=1e4, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
-    mesh = lsdcd.Mesh(np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float), [[0, 1, 2], [0, 2, 3]])
-
     def slider(limits):
         return lsdcd.RigidBody(mass=1, inertia=(1, 1, 1, 0, 0, 0), joint="slider", axis=(0, 0, 1), limits=limits)
 
-    def made(**words):
-        return lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh, **words)]))
+    def made(words, **values):
+        return lsdcd.Wall(f"hooke 1e4 0 0 0 0 0 mesh $floor {words}", floor=FLOOR, **values)
 
-    none, zero = np.zeros((0, 3)), np.zeros(0)
-    for limits, says in (((1, 2), "meshes[0].body.lo` is 1"), ((-2, -1), "meshes[0].body.hi` is -1")):
-        refused(f"limits {limits} do not hold where the body begins", says, lambda: made(body=slider(limits)), lsdcd.Error)
-    wall = made(body=slider((-1, 1)))
+    body, none, zero = "body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 joint slider 0 0 1 limits", np.zeros((0, 3)), np.zeros(0)
+    for limits in ("1 2", "-2 -1"):    # which the first step refuses
+        beyond = made(f"{body} {limits}")
+        refused(f"limits {limits} do not hold where the body begins", f"the limits {limits} do not contain 0, which is where the body begins",
+                lambda: beyond.step(none, none, none, zero, zero, none.copy(), none.copy(), 1e-3), lsdcd.Error)
+    wall = made(f"{body} -1 1")
     wall.set_body(0, slider((1, 2)))    # for a state whose body is there
     refused("a body cannot begin outside of them", "the limits 1 2 do not contain 0", lambda: wall.step(
         none, none, none, zero, zero, none.copy(), none.copy(), 1e-3), lsdcd.Error)
@@ -902,7 +930,8 @@ def test_what_begins_wrongly():
     wall.step(none, none, none, zero, zero, none.copy(), none.copy(), 1e-3)
     fact("and the wall goes on", wall.body(0).coordinate == 0)
     for name, what in (("/dev/zero", "a device"), ("/", "a directory")):
-        refused(f"a table {name} is no file", f"it is {what}; give the path of a file of text", lambda: made(motions=[lsdcd.Motion.table(name)]), lsdcd.Error)
+        refused(f"a table {name} is no file", f"it is {what}; give the path of a file of text",
+                lambda: made("motion table $file", file=name), lsdcd.Error)
     refused("a Motion has a kind", "Motion.linear()", lsdcd.Motion)
 
     def says(code, **environment):
@@ -943,8 +972,8 @@ def test_errors():
                                  ("bytes of a binary file", r"\xff\xfe", lambda: lsdcd.Mesh(binary))):
             refused(f"{what} in a message is no UTF-8", says, call, lsdcd.Error)
         log = []
-        law = lsdcd.Law("hooke", kn=1, kt=0, gamman=0, xmu=0, dampflag=0)
-        lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(lsdcd.Mesh(name), b"lid\xff")]), show=lambda text, warning: log.append(text))
+        lsdcd.Wall("hooke 1 0 0 NULL 0 0 mesh $file name $name", show=lambda text, warning: log.append(text), file=os.fsdecode(name),
+                   name=os.fsdecode(b"lid\xff"))
         fact("the log of a wall has a name that is no UTF-8", any(r"lid\xff" in text for text in log), log)
 
     def interrupt(frame, event, _):
@@ -954,7 +983,7 @@ def test_errors():
 
     mesh, before, told = lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]]), signal.getsignal(signal.SIGINT), []
     for name, call in (("a progress", lambda: mesh.grid(cutoff=1, progress=lambda what, done: told.append(done))),
-                       ("a log", lambda: lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh)]), show=lambda text, warning: None))):
+                       ("a log", lambda: on_floor(show=lambda text, warning: None))):
         sys.setprofile(interrupt)
         try:
             refused(f"Ctrl-C as {name} begins is a KeyboardInterrupt", "", call, KeyboardInterrupt)
@@ -975,10 +1004,9 @@ def test_nonsense():
     corners = np.array([[[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]]])
     mesh = lsdcd.Mesh(corners)
     grid, body, points = mesh.grid(cutoff=0.5), lsdcd.Body(mesh, mesh), np.zeros((2, 3))
-    spec = on_floor()
     vectors, numbers = ("x", "v", "omega", "force", "torque"), ("radius", "mass")
     spheres = {**{k: np.zeros((1, 3)) for k in vectors}, **{k: np.ones(1) for k in numbers}, "dt": 1e-3}
-    wall, law = lsdcd.Wall(spec), lsdcd.Law("hooke", kn=1, kt=0, gamman=0, xmu=0, dampflag=0)
+    wall, law = on_floor(), lsdcd.Law("hooke", kn=1, kt=0, gamman=0, xmu=0, dampflag=0)
     calls = {"Mesh()": lsdcd.Mesh, "faces": lambda b: lsdcd.Mesh(corners[0], b), "vertices": lambda b: lsdcd.Mesh(b, [[0, 1, 2]]),
              "weld": lambda b: lsdcd.Mesh(corners, weld=b), "query()": grid.query, "contacts()": lambda b: grid.contacts(b, 0.1),
              "radius of contacts()": lambda b: grid.contacts(points, b), "Body()": lambda b: lsdcd.Body(b, mesh),
@@ -988,7 +1016,8 @@ def test_nonsense():
              "placement": lambda b: lsdcd.WallMesh(mesh, placement=b), "about": lambda b: wall.totals(0, b),
              "out of query()": lambda b: grid.query(points, out={"distance": b}), "a word": lambda b: grid.query(points, [b]),
              "out of contacts()": lambda b: grid.contacts(points, 0.1, out={"point": b}),
-             "to": lambda b: wall.unpack(b, [1.0]), "numbers": lambda b: wall.unpack([0], b)}
+             "to": lambda b: wall.unpack(b, [1.0]), "numbers": lambda b: wall.unpack([0], b), "check()": lsdcd.Wall.check, "change()": wall.change,
+             "set_input()": lambda b: wall.set_input(b, 1)}
     for name, call, some in (
             ("grid", lambda **b: mesh.grid(**{"cutoff": 0.5, **b}),
              "cutoff cell nearest precision memory threads device progress"),
@@ -996,8 +1025,8 @@ def test_nonsense():
             ("contacts", lambda **b: grid.contacts(points, 0.1, **b), "threads out progress"),
             ("Body", lambda **b: lsdcd.Body(mesh, mesh, **b), "cell nearest memory threads device progress"),
             ("collide", lambda **b: body.collide(**{"position": (0, 0, 0), **b}), "position quaternion matrix threads"),
-            ("Wall", lambda **b: lsdcd.Wall(spec, **b), "lo hi periodic margin time show threads device stream"),
-            ("step", lambda **b: lsdcd.Wall(spec).step(**{**spheres, **b}),
+            ("Wall", on_floor, "lo hi periodic margin time show threads device stream units values"),
+            ("step", lambda **b: on_floor().step(**{**spheres, **b}),
              " ".join([*vectors, *numbers, "dt setup changed reach temperature heat type"]))):
         calls |= {f"{word} of {name}()": lambda b, call=call, word=word: call(**{word: b}) for word in some.split()}
     calls |= {f"{name}()": getattr(wall, name) for name in ("renumber", "pack", "totals", "pose", "restore")}

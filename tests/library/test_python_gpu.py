@@ -201,10 +201,9 @@ def grains(n):
 def check_wall(library, floor):
     """A wall's arrays on a GPU against arrays of numpy: the same bits, as test_library_wall_gpu has them."""
     say = lambda text: f"{library.name}: {text}"    # noqa: E731
-    law, dt = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=5, gammat=2, xmu=0.5, dampflag=1), 1e-3
-    spec = lsdcd.WallSpec(law, [lsdcd.WallMesh(lsdcd.Mesh(floor))])
-    host, given = lsdcd.Wall(spec), grains(1000)
-    wall, there = lsdcd.Wall(spec, device="cuda"), {k: library.give(v) for k, v in given.items()}
+    words, dt = "hooke/history 1000 300 5 2 0.5 1 mesh $floor", 1e-3
+    host, given = lsdcd.Wall(words, floor=floor), grains(1000)
+    wall, there = lsdcd.Wall(words, floor=floor, device="cuda"), {k: library.give(v) for k, v in given.items()}
     for _ in range(5):
         host.step(**given, dt=dt)
         wall.step(**there, dt=dt)
@@ -219,9 +218,7 @@ def check_wall(library, floor):
     refused(say("float32 is refused"), "not a contiguous float64",
             lambda: wall.step(**{**there, "mass": library.give(np.ones(1000, np.float32))}, dt=dt))
 
-    hooke = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=20, xmu=0.5, dampflag=1)
-    walls = [lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(lsdcd.Mesh(floor), "floor", nodes_by_caller=True)]), device=where)
-             for where in ("cpu", "cuda")]
+    walls = [lsdcd.Wall("hooke/history 1000 300 20 NULL 0.5 1 mesh $floor nodes caller", floor=floor, device=where) for where in ("cpu", "cuda")]
     nodes = walls[0].nodes()
     forces, given = library.give(np.zeros_like(nodes)), grains(1000)
     there = {k: library.give(v) for k, v in given.items()}
@@ -243,7 +240,7 @@ def check_wall(library, floor):
     # The stream of the wall sets the force to 0 after much other work; then the wall adds to it.
     stream = library.stream()
     with library.on(stream):
-        wall, again = lsdcd.Wall(spec, device="cuda", stream=stream), {k: library.give(v) for k, v in grains(1000).items()}
+        wall, again = lsdcd.Wall(words, floor=floor, device="cuda", stream=stream), {k: library.give(v) for k, v in grains(1000).items()}
         work = library.give(np.ones((2000, 2000), np.float32))
         again["force"] += 1
         library.wait()
@@ -253,7 +250,7 @@ def check_wall(library, floor):
         wall.step(**again, dt=dt)
         found = library.take(again["force"])
     first = grains(1000)
-    lsdcd.Wall(spec).step(**first, dt=dt)
+    lsdcd.Wall(words, floor=floor).step(**first, dt=dt)
     fact(say("a wall keeps the order of its stream"), (found == first["force"]).all())
 
 
@@ -269,4 +266,4 @@ def test_arrays(kind, folder):
     check(library, lsdcd.Mesh(triangles).grid(cutoff=CUTOFF))
     if library.own:
         stl.write(folder / "floor.stl", triangles)
-        check_wall(library, str(folder / "floor.stl"))
+        check_wall(library, lsdcd.Mesh(folder / "floor.stl"))

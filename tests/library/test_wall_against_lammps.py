@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Walls in Python with the library against those of scripts in LAMMPS: each kind of spec, to the last bit of forces.
+"""Walls in Python with the library against those of scripts in LAMMPS: each kind of wall, to the last bit of forces.
 LSDCD_LMP names lmp-lsdcd, PYTHONPATH and LSDCD_LIBRARY the module and its library."""
-import math
 import os
+import re
 import subprocess
 
 import numpy as np
@@ -28,67 +28,51 @@ def run(lmp, folder, script):
 
 # Spheres of radius 0.5 and mass 1, which nothing moves, on a square at z = 0.
 SQUARE = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], float)
+FLOOR = lsdcd.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]])
 X, V, OMEGA, TOUCHES = np.array([[0.3, 0.2, 0.49], [1.5, -1, 0.48]]), np.full((2, 3), 0.25), np.full((2, 3), 0.5), 5
 
 
-def specs(folder):
-    """Each kind of spec: what is special, the words of the same wall in a script, and the spec."""
-    mesh, sub, motion = lsdcd.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]]), lsdcd.SubModel, lsdcd.Motion
-    hooke = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=20, xmu=0.5, dampflag=1)
-    granular = lsdcd.Law.granular(sub("hertz/material", E=2000, e=0.5, nu=0.3), sub("mindlin", kt=None, xgammat=1, mu=0.5),
-                                  "tsuji", rolling=sub("sds", k=100, gamma=1, mu=0.1), limit_damping=True)
-    cohesive = lsdcd.Law("hooke", kn=1000, kt=300, gamman=20, gammat=10, xmu=0.5, dampflag=1, rolling=sub("cdt", MU=0.1),
-                         cohesion=sub("sjkr", K=50))
-    soft = lsdcd.Law("hooke/history", kn=500, kt=100, gamman=5, gammat=0, xmu=0.3, dampflag=1)
-    with open(os.path.join(folder, "lever.txt"), "w", encoding="ascii") as f:
-        f.write("0 0\n0.5 0.3\n1 0\n")
-    rows = [[0, 0], [0.5, 0.3], [1, 0]]
-    placed = lsdcd.Placement().scale(2).rotate((0, 0.1, 1), 30).move(0, 0, 0.01)
-    style, placing = "hooke/history 1000 300 20 NULL 0.5 1 mesh floor.stl", "scale 2 rotate 0 0.1 1 30 move 0 0 0.01"
-    for name, words, law, part, whole in (
-            ("a style", style, hooke, {}, {}),
-            ("granular", "granular hertz/material 2000 0.5 0.3 tangential mindlin NULL 1 0.5 damping tsuji rolling sds 100 1 0.1 "
-             "limit_damping mesh floor.stl", granular, {}, {}),
-            ("rolling and cohesion", "hooke 1000 300 20 10 0.5 1 mesh floor.stl rolling cdt 0.1 cohesion sjkr 50", cohesive, {}, {}),
-            ("a placement", f"{style} {placing}", hooke, {"placement": placed}, {}),
-            ("a matrix", f"{style} {placing}", hooke, {"placement": placed.matrix}, {}),
-            ("motions", f"{style} motion rotate 0 0 0 0 1 0 3 motion linear 0 0 1", hooke,
-             {"motions": [motion.rotate((0, 0, 0), (0, 1, 0), 3), motion.linear((0, 0, 1))]}, {}),
-            ("waves", f"{style} motion wiggle 0 0 0.01 2 motion transrot 0 0 1 1 0 0 0 1 0 5", hooke,
-             {"motions": [motion.wiggle((0, 0, 0.01), 2), motion.transrot((0, 0, 1), (1, 0, 0), (0, 1, 0), 5)]}, {}),
-            ("a cosine", f"{style} wiggle z 0.01 2", hooke, {"motions": [motion.cosine((0, 0, 0.01), 2)]}, {}),
-            ("a table", f"{style} motion table lever.txt axis 1 0 0 0 1 0 repeat motion riggle 0 0 0 0 0 1 5 2", hooke,
-             {"motions": [motion.table(rows, (1, 0, 0), (0, 1, 0), repeats=True),
-                          motion.riggle((0, 0, 0), (0, 0, 1), math.radians(5), 2)]}, {}),
-            ("a table of a file", f"{style} motion table lever.txt axis 1 0 0 0 1 0 linear degrees", hooke,
-             {"motions": [motion.table(f"{folder}/lever.txt", (1, 0, 0), (0, 1, 0), straight=True, degrees=True)]}, {}),
-            ("a servo", f"{style} servo force z 25 vmax 0.5 limits -0.1 0.2", hooke,
-             {"servo": lsdcd.Servo((0, 0, 1), 25, 0.5, limits=(-0.1, 0.2))}, {}),
-            ("a belt", f"{style} surface_vel 1 0 0 surface_angvel 0 0 0.5 1 2 0", hooke,
-             {"surface_velocity": (1, 0, 0), "surface_angular_velocity": (0, 0, 0.5), "surface_centre": (1, 2, 0)}, {}),
-            ("a law of a mesh", f"{style} law hooke/history 500 100 5 0 0.3 1", hooke, {"law": soft}, {}),
-            ("a law of types", f"{style} law types 2* hooke/history 500 100 5 0 0.3 1", hooke,
-             {"type_laws": [(2, None, soft)]}, {}),
-            ("the search", f"{style} corner sum nearest 2 grid 0.5 rmax 0.7", hooke, {},
-             {"corner": "sum", "nearest": 2, "cell": 0.5, "rmax": 0.7})):
-        yield name, words, lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh, **part)], **whole)
+STYLE, PLACING = "hooke/history 1000 300 20 NULL 0.5 1 mesh $floor", "scale 2 rotate 0 0.1 1 30 move 0 0 0.01"
+# What is special, and the words, in which a script has files where a program has values.
+WALLS = {"a style": STYLE,
+         "granular": "granular hertz/material 2000 0.5 0.3 tangential mindlin NULL 1 0.5 damping tsuji "
+                     "rolling sds 100 1 0.1 limit_damping mesh $floor",
+         "rolling and cohesion": "hooke 1000 300 20 10 0.5 1 mesh $floor rolling cdt 0.1 cohesion sjkr 50",
+         "a placement": f"{STYLE} {PLACING}",
+         "motions": f"{STYLE} motion rotate 0 0 0 0 1 0 3 motion linear 0 0 1",
+         "waves": f"{STYLE} motion wiggle 0 0 0.01 2 motion transrot 0 0 1 1 0 0 0 1 0 5",
+         "a cosine": f"{STYLE} wiggle z 0.01 2",
+         "a table": f"{STYLE} motion table $rows axis 1 0 0 0 1 0 repeat motion riggle 0 0 0 0 0 1 5 2",
+         "a table of a file": f"{STYLE} motion table $file axis 1 0 0 0 1 0 linear degrees",
+         "a servo": f"{STYLE} servo force z 25 vmax 0.5 limits -0.1 0.2",
+         "a belt": f"{STYLE} surface_vel 1 0 0 surface_angvel 0 0 0.5 1 2 0",
+         "a law of a mesh": f"{STYLE} law hooke/history 500 100 5 0 0.3 1",
+         "a law of types": f"{STYLE} law types 2* hooke/history 500 100 5 0 0.3 1",
+         "the search": f"{STYLE} corner sum nearest 2 grid 0.5 rmax 0.7"}
+FILES = {"$floor": "floor.stl", "$rows": "lever.txt", "$file": "lever.txt"}
 
 
-def forces_by_library(spec):
-    wall, force, torque = lsdcd.Wall(spec), np.zeros((2, 3)), np.zeros((2, 3))
+def in_script(words):
+    return re.sub(r"[$]\w+", lambda name: FILES[name[0]], words)
+
+
+def forces_by_library(wall):
+    force, torque = np.zeros((2, 3)), np.zeros((2, 3))
     for k in range(TOUCHES + 1):
         force[:] = torque[:] = 0
         wall.step(X, V, OMEGA, np.full(2, 0.5), np.ones(2), force, torque, 1e-3, setup=k == 0, type=np.array([1, 2], np.int32))
     return np.hstack([force, torque])
 
 
-def write_floor(folder):
+def write_files(folder):
     with open(os.path.join(folder, "floor.stl"), "w", encoding="ascii") as f:
         f.write("solid floor\n")
         for face in ([0, 1, 2], [0, 2, 3]):
             f.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % tuple(SQUARE[k]) for k in face) +
                     "endloop\nendfacet\n")
         f.write("endsolid floor\n")
+    with open(os.path.join(folder, "lever.txt"), "w", encoding="ascii") as f:
+        f.write("0 0\n0.5 0.3\n1 0\n")
 
 
 BEGIN = """clear
@@ -112,7 +96,7 @@ timestep 1e-3
 
 def forces_by_lammps(lmp, folder, walls):
     """Of each wall of these words, in one run of the program."""
-    write_floor(folder)
+    write_files(folder)
     run(lmp, folder, "".join(f"""{BEGIN}\
 fix wall all wall/lsdcd {words} device cpu
 run {TOUCHES}
@@ -122,10 +106,19 @@ write_dump all custom {k}.dump id fx fy fz tqx tqy tqz modify sort id format flo
 
 
 def test_bits_of_a_script(folder):
-    names, walls, made = zip(*specs(str(folder)))
-    for name, spec, wanted in zip(names, made, forces_by_lammps(LMP, str(folder), walls)):
-        found = forces_by_library(spec)
+    values = {"floor": FLOOR, "rows": [[0, 0], [0.5, 0.3], [1, 0]], "file": folder / "lever.txt"}
+    for (name, words), wanted in zip(WALLS.items(), forces_by_lammps(LMP, str(folder), [*map(in_script, WALLS.values())])):
+        found = forces_by_library(lsdcd.Wall(words, values={k: value for k, value in values.items() if f"${k}" in words.split()}))
         fact(f"{name}: the bits of the script", (found == wanted).all() and wanted[:, 2].any(), found - wanted)
+
+
+def test_bits_of_a_matrix(folder):
+    """A spec may have a matrix where words place by scale, rotate and move."""
+    hooke = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=20, xmu=0.5, dampflag=1)
+    placed = lsdcd.Placement().scale(2).rotate((0, 0.1, 1), 30).move(0, 0, 0.01)
+    wanted, = forces_by_lammps(LMP, str(folder), [in_script(WALLS["a placement"])])
+    found = forces_by_library(lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(FLOOR, placement=placed.matrix)])))
+    fact("a matrix: the bits of the script", (found == wanted).all() and wanted[:, 2].any(), found - wanted)
 
 
 # Keywords that the wall of test_numbers_by_name() does not have.
@@ -135,21 +128,17 @@ WITHOUT = ("body_", "removed_", "held_back_", "couple_", "lost_wear")
 def test_numbers_by_name(folder):
     """Each number that a wall has is the same in a script and in the library, by its name, of the wall and of one of its meshes."""
     names = [name for name in lsdcd.OUTPUTS if not name.startswith(WITHOUT)]
-    law = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=20, xmu=0.5, dampflag=1)
-    mesh, up = lsdcd.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]]), lsdcd.Placement().move(0, 0, 0.95)
-    wall = lsdcd.Wall(lsdcd.WallSpec(law, [
-        lsdcd.WallMesh(mesh, "floor", motions=[lsdcd.Motion.rotate((0, 0, 0), (0, 0, 1), 3)]),
-        lsdcd.WallMesh(mesh, "lid", placement=up, servo=lsdcd.Servo((0, 0, 1), -5, 0.5))],
-        wear=("archard", 1e-3, 1e3), energy=True, impact_speed=1e-3, average=2))
+    words = f"""{STYLE} name floor motion rotate 0 0 0 0 0 1 3 mesh $floor name lid move 0 0 0.95 servo force z -5 vmax 0.5 &
+                wear archard 1e-3 1e3 energy impacts 1e-3 average 2"""
+    wall = lsdcd.Wall(words, floor=FLOOR)
     force, torque = np.zeros((2, 3)), np.zeros((2, 3))
     for k in range(TOUCHES + 1):
         wall.step(X, V, OMEGA, np.full(2, 0.5), np.ones(2), force, torque, 1e-3, setup=k == 0)
-    write_floor(folder)
+    write_files(folder)
     of_lid = [name for name in names if name != "elastic_energy"]
     columns = " ".join([f"v_w_{name}" for name in names] + [f"v_lid_{name}" for name in of_lid])
     run(LMP, folder, BEGIN + f"""\
-fix w all wall/lsdcd hooke/history 1000 300 20 NULL 0.5 1 mesh floor.stl name floor motion rotate 0 0 0 0 0 1 3 mesh floor.stl name lid &
-    move 0 0 0.95 servo force z -5 vmax 0.5 wear archard 1e-3 1e3 energy impacts 1e-3 average 2 device cpu
+fix w all wall/lsdcd {in_script(words)} device cpu
 fix_modify w names w all
 fix_modify w mesh lid names lid all
 log numbers.log
