@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <deque>
 #include <lsdcd.hpp>
+#include <string>
 #include <vector>
 
 namespace {
@@ -164,19 +165,16 @@ struct Crates {
 
 int fall(double seconds)
 {
-  const lsdcd::Mesh tray = box(kTray / 2, 0, 0.1, false);
-  std::deque<lsdcd::Mesh> meshes;
-  lsdcd::WallSpec spec;
-  spec.law =
-      lsdcd::Law::classic({"hooke/history", {kStiffness, 0.5 * kStiffness, 800, 400, 0.5, 1.}});
-  spec.brief = true;
-  spec.meshes.emplace_back(tray, "tray");
-  for (int k = 0; k < kCrates; k++) {
+  std::string words = "hooke/history $kn $kt 800 400 0.5 1 log brief  mesh $tray";
+  lsdcd::Values values = {
+      {"kn", kStiffness}, {"kt", 0.5 * kStiffness}, {"tray", box(kTray / 2, 0, 0.1, false)}};
+  for (int k = 0; k < kCrates; k++) {    // mesh number 1 + k
     const double half = half_of(k);
-    spec.meshes.emplace_back(meshes.emplace_back(box(half, -half, half, true)), "crate");
-    spec.meshes.back().posed_by_caller = true;
+    const std::string name = "crate" + std::to_string(k);
+    words += " mesh $" + name + " motion caller";
+    values.emplace_back(name, box(half, -half, half, true));
   }
-  lsdcd::Wall wall(spec);
+  lsdcd::Wall wall(words, values);
   Grains grains;
   Crates crates;
 

@@ -133,9 +133,8 @@ def main():
     mesh = os.path.join(folder, "drum.stl")
     write_drum(mesh)
     # Gas of grains that fall; the drum turns about y as soon as they are there.
-    law = lsdcd.Law("hertz/history", kn=2e6, kt=1e6, gamman=1e5, gammat=5e4, xmu=0.5, dampflag=1)
-    turn = lsdcd.Motion.rotate(point=(0, 0, 0), axis=(0, 1, 0), period=PERIOD)
-    wall = lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(lsdcd.Mesh(mesh), "drum", motions=[turn])]))
+    wall = lsdcd.Wall("hertz/history 2e6 1e6 1e5 5e4 0.5 1  mesh $drum  motion rotate 0 0 0 0 1 0 $period",
+                      drum=lsdcd.Mesh(mesh), period=PERIOD)
     grains = Grains()
     grains.push(wall, setup=True)
     steps = int(seconds / DT)

@@ -73,11 +73,8 @@ try {
   lsdcd::WallOptions options;
   options.device = LSDCD_CUDA;
   options.stream = stream;
-  lsdcd::WallSpec spec;
-  spec.law = lsdcd::Law::classic(
-      {"hooke/history", {s.stiffness, lsdcd::kDerived, 0.4 * frequency, lsdcd::kDerived, 0.5, 1.}});
-  spec.meshes.emplace_back(mesh);
-  lsdcd::Wall wall(spec, &options);
+  lsdcd::Wall wall("hooke/history $kn NULL $gamman NULL 0.5 1  mesh $mesh",
+                   {{"kn", s.stiffness}, {"gamman", 0.4 * frequency}, {"mesh", mesh}}, &options);
   lsdcd_spheres spheres = {};
   spheres.size = sizeof spheres;
   spheres.n = s.n;

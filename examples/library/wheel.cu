@@ -78,13 +78,15 @@ try {
   lsdcd::WallOptions options;
   options.device = LSDCD_CUDA;
   options.stream = stream;
-  lsdcd::WallSpec spec;
-  spec.law = lsdcd::Law::classic(
-      {"hooke/history", {s.stiffness, lsdcd::kDerived, 0.4 * frequency, lsdcd::kDerived, 0.5, 1.}});
-  const lsdcd::Mesh of_tray(tray(size[0], size[1], size[2])), of_wheel(file);
-  spec.meshes = {lsdcd::WallMesh(of_tray, "tray"), lsdcd::WallMesh(of_wheel, "wheel")};
-  spec.meshes[1].posed_by_caller = true;
-  lsdcd::Wall wall(spec, &options);
+  const lsdcd::Mesh of_wheel(file);
+  lsdcd::Wall wall(
+      "hooke/history $kn NULL $gamman NULL 0.5 1  mesh $tray  mesh $wheel motion caller",
+      {{"kn", s.stiffness},
+       {"gamman", 0.4 * frequency},
+       {"tray", lsdcd::Mesh(tray(size[0], size[1], size[2]))},
+       {"wheel", of_wheel}},
+      &options);
+  const int wheel = wall.mesh("wheel");
   lsdcd_spheres spheres = {};
   spheres.size = sizeof spheres;
   spheres.n = s.n;
@@ -102,7 +104,7 @@ try {
                    deep * gap + 1.02 * kWheelRadius};
   pose.angular_velocity = {0, kTurning, 0};
   double angle = 0;
-  wall.set_pose(1, pose);
+  wall.set_pose(wheel, pose);
 
   cudaEvent_t at[3];
   for (cudaEvent_t &event : at) check(cudaEventCreate(&event));
@@ -125,7 +127,7 @@ try {
     check(cudaEventRecord(at[2], stream));
     if (k > 0) start_kick(s, false, stream);
     const lsdcd_wall_totals push =
-        wall.totals(1, {pose.position[0], pose.position[1], pose.position[2]});
+        wall.totals(wheel, {pose.position[0], pose.position[1], pose.position[2]});
     const Clock::time_point told = Clock::now();
     // The robot: its motor turns the wheel at a constant speed, and an axle carries it along and up.
     pose.velocity[0] += s.dt * push.force[0] / kWheelMass;
@@ -133,7 +135,7 @@ try {
     for (const int d : {0, 2}) pose.position[d] += s.dt * pose.velocity[d];
     angle += s.dt * kTurning;
     pose.quaternion = {std::cos(angle / 2), 0, std::sin(angle / 2), 0};
-    wall.set_pose(1, pose);
+    wall.set_pose(wheel, pose);
     of_host += std::chrono::duration<double>(Clock::now() - told).count();
     float ms[2];
     check(cudaEventSynchronize(at[2]));

@@ -32,11 +32,13 @@ def numbers(vectors):
 class MeshWall:
     """An engine of Yade: step() hands the spheres near the mesh to an lsdcd.Wall, and adds forces and torques.
 
-    Which are near is looked up before any other can have come. `speed`: of the mesh, at most."""
+    Its springs are Yade's, and `keywords` those of the mesh. Which spheres are near is looked up before any other can have come.
+    `speed`: of the mesh, at most."""
 
-    def __init__(self, law, name, motions=(), speed=0.0):
+    def __init__(self, stiffness, name, keywords="", speed=0.0):
         mesh = lsdcd.Mesh(name)
-        self.wall = lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh, motions=motions)]), threads=1)
+        self.wall = lsdcd.Wall(f"hooke/history $kn $kt 0 0 $xmu 0  mesh $mesh {keywords}", threads=1,
+                               mesh=mesh, kn=stiffness, kt=0.5 * stiffness, xmu=FRICTION)
         spheres = [b for b in O.bodies if isinstance(b.shape, Sphere)]
         self.ids = np.array([b.id for b in spheres])
         self.states = [b.state for b in spheres]
@@ -106,10 +108,6 @@ def material(stiffness, radius):
                                        density=DENSITY))
 
 
-def law(stiffness):
-    return lsdcd.Law("hooke/history", kn=stiffness, kt=0.5 * stiffness, gamman=0, gammat=0, xmu=FRICTION, dampflag=0)
-
-
 # ---- a floor with a seam every 10 mm -----------------------------------------------------------------------------
 
 
@@ -137,7 +135,7 @@ def roll(mesh, ours, radius=0.005, speed=0.2, stiffness=1000.0, dt=4e-5, steps=1
     state, rows = O.bodies[ball].state, []
     state.vel, state.angVel = (speed, 0, 0), (0, speed / radius, 0)
     if ours:
-        add(MeshWall(law(stiffness), mesh))
+        add(MeshWall(stiffness, mesh))
     else:
         O.bodies.append(ymport.stl(mesh, material=kind))
 
@@ -195,8 +193,7 @@ def turn(mesh, ours, number, steps, period=2.0):
     for x in places:
         O.bodies.append(utils.sphere(x.tolist(), radius, material=kind))
     if ours:
-        add(MeshWall(law(stiffness), mesh, [lsdcd.Motion.rotate((0, 0, 0), (0, 1, 0), period)],
-                     2 * np.pi / period * drum.RADIUS))
+        add(MeshWall(stiffness, mesh, f"motion rotate 0 0 0 0 1 0 {period}", 2 * np.pi / period * drum.RADIUS))
     else:
         turning[0].ids = O.bodies.append(ymport.stl(mesh, material=kind))
     part, taken = steps // 20, []
