@@ -30,6 +30,9 @@ void check_value(const ProgramValue &value)
     throw InputError(named + ": a name has letters, digits and _ alone, and no $");
   if (value.kind == ProgramValue::Kind::text && value.text.find(kMark) == 0)
     throw InputError(named + ": a text does not begin with $");
+  const bool has_numbers =
+      value.kind == ProgramValue::Kind::numbers || value.kind == ProgramValue::Kind::rows;
+  if (has_numbers && value.numbers.empty()) throw InputError(named + " has no numbers");
   const bool may_be_null = value.kind == ProgramValue::Kind::numbers;
   for (std::size_t k = 0; k < value.numbers.size(); k++)
     if (!std::isfinite(value.numbers[k]) && !(may_be_null && std::isnan(value.numbers[k])))

@@ -70,7 +70,7 @@ int change_wall(Wall &wall, const std::vector<std::string> &arguments, const Ste
                      (program ? " or body ..." : " body ... or names ...") + " must follow" +
                      (arguments.size() <= taken ? "" : ", not '" + arguments[taken] + "'"));
   const MeshSpec &of = meshes[static_cast<std::size_t>(mesh)];
-  if (program && of.motion.is_posed())
+  if (program && of.motion.is_posed() && !of.body.present)    // a body poses its mesh by itself
     throw InputError("mesh '" + of.name +
                      "' has poses of the program, which alone move it: lsdcd_wall_set_pose()");
   Tokens w(arguments);

@@ -562,11 +562,11 @@ def test_walls():
     state = falls.body(0)
     fact("a body is asked for", state.centre.shape == (3,) and state.quaternion.tolist() == [1, 0, 0, 0] and
          state.velocity[2] < 0.5 and state.coordinate == state.centre[2] and state.energy > 0, state)
-    falls.set_body(0, lsdcd.RigidBody(joint="ball", point=(0, 0, 0)))
+    falls.change("body joint ball 0 0 0 load 0 0 0")
     held = falls.body(0)
     fact("a body takes another joint where it is", held.velocity.tolist() == [0, 0, 0] and held.coordinate == 0 and
          (held.centre == state.centre).all(), held)
-    falls.set_body(0, lsdcd.RigidBody(joint="slider", axis=(0, 0, 1), load=(0, 0, 400)))
+    falls.change("body joint slider 0 0 1 load 0 0 400")
     forces(falls, 1)
     fact("and another load", falls.body(0).velocity[2] > 0, falls.body(0))
     posed = wall_of("motion caller")
@@ -911,9 +911,6 @@ def test_walls_are_freed():
 
 def test_what_begins_wrongly():
     """Before anything is made: limits, tables, threads, the library itself."""
-    def slider(limits):
-        return lsdcd.RigidBody(mass=1, inertia=(1, 1, 1, 0, 0, 0), joint="slider", axis=(0, 0, 1), limits=limits)
-
     def made(words, **values):
         return lsdcd.Wall(f"hooke 1e4 0 0 0 0 0 mesh $floor {words}", floor=FLOOR, **values)
 
@@ -923,10 +920,10 @@ def test_what_begins_wrongly():
         refused(f"limits {limits} do not hold where the body begins", f"the limits {limits} do not contain 0, which is where the body begins",
                 lambda: beyond.step(none, none, none, zero, zero, none.copy(), none.copy(), 1e-3), lsdcd.Error)
     wall = made(f"{body} -1 1")
-    wall.set_body(0, slider((1, 2)))    # for a state whose body is there
+    wall.change("body limits 1 2")    # for a state whose body is there
     refused("a body cannot begin outside of them", "the limits 1 2 do not contain 0", lambda: wall.step(
         none, none, none, zero, zero, none.copy(), none.copy(), 1e-3), lsdcd.Error)
-    wall.set_body(0, slider((-1, 1)))
+    wall.change("body limits -1 1")
     wall.step(none, none, none, zero, zero, none.copy(), none.copy(), 1e-3)
     fact("and the wall goes on", wall.body(0).coordinate == 0)
     for name, what in (("/dev/zero", "a device"), ("/", "a directory")):

@@ -186,6 +186,7 @@ MESH = lsdcd.Mesh(*FLOOR)
     (f"{STYLE} mesh floor", {"floor": MESH}, r"no word is \$floor: a value stands behind a \$, and 'floor' is none"),
     (f"{STYLE} mesh $floor mesh $floor move 0 0 1", {"floor": MESH}, "same name 'floor': give one of them another by the keyword name"),
     (f"{STYLE} mesh $floor mesh $floor name lid", {"floor": MESH}, "in 'mesh', of mesh 2 'lid': it is that of mesh 1 'floor' at the same place"),
+    ("hooke/history $law mesh $floor", {"floor": MESH, "law": []}, "the value 'law' has no numbers"),
     ("hooke/history $law mesh $floor", {"floor": MESH, "law": [1000, float("inf"), 20, None, 0.5, 1]}, "the value 'law': number 2 is inf, not finite")))
 def test_values_refused(words, values, says):
     with pytest.raises(lsdcd.Error, match=says):
@@ -201,8 +202,9 @@ def test_values_of_python(folder):
                                  mesh_stl $file every 1000""", floor=MESH, law=law.tolist(), file=str(folder / "a file.stl"))
     fact("the same", (by_text == by_value).all() and by_text[:, 2].any(), by_text - by_value)
     fact("as float32", (forces_by_library("hooke/history $law mesh $floor", floor=MESH, law=law) == by_text).all())
-    with pytest.raises(TypeError, match="law is .*: give a Mesh, numbers"):
-        lsdcd.Wall("hooke $law mesh $floor", floor=MESH, law={"kn": 1})
+    for law in ({"kn": 1}, True, 10**400, ["a"]):
+        with pytest.raises(TypeError, match="law is .*: give a Mesh, numbers"):
+            lsdcd.Wall("hooke $law mesh $floor", floor=MESH, law=law)
     with pytest.raises(ValueError, match="mesh is 'flor': no mesh is called 'flor': the nearest is 'floor'"):
         lsdcd.Wall(f"{STYLE} mesh $floor", floor=MESH).pose("flor")
 

@@ -37,7 +37,7 @@ class Values:
                 raise ValueError(f"{name}: its Mesh has been closed, so that no wall can be made of it")
             self.meshes.append(value)
             made.kind, made.mesh = _MESH, value._handle
-        elif isinstance(value, (str, os.PathLike)):
+        elif isinstance(value, (str, bytes, os.PathLike)):
             made.kind, made.text = _TEXT, _c_text(value, name)
         else:
             numbers = self._numbers(name, value)
@@ -51,8 +51,10 @@ class Values:
     def _numbers(name: str, value: Any) -> Any:
         try:
             numbers = np.ascontiguousarray(value, np.float64)
-        except (TypeError, ValueError):
-            raise TypeError(f"{name} is {value!r}: give a Mesh, numbers, rows of numbers or a text") from None
-        if isinstance(value, bool) or np.ndim(value) > 2:
+        except (TypeError, ValueError, OverflowError):
+            numbers = None
+        if numbers is None or isinstance(value, bool):
+            raise TypeError(f"{name} is {value!r}: give a Mesh, numbers, rows of numbers or a text")
+        if np.ndim(value) > 2:
             raise ValueError(f"{name} is of shape {np.shape(value)}: give a number, (n,) numbers, or (n, columns) rows")
         return numbers
