@@ -178,7 +178,9 @@ int lsdcd_wall_set_input(lsdcd_wall *wall, const char *name, double value)
     if (found == names.end())
       throw ApiError(LSDCD_ERROR_ARGUMENT,
                      "the wall reads no v_" + std::string(name) +
-                         (names.empty() ? "" : ": " + nearest_or_all(name, names)));
+                         (std::string(name).rfind("v_", 0) == 0 ? ": the name is without v_"
+                          : names.empty()                       ? ""
+                                          : ": " + nearest_or_all(name, names)));
     checked_number(value, "value of v_" + std::string(name));
     wall->inputs.resize(names.size());
     const std::ptrdiff_t k = found - names.begin();

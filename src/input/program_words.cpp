@@ -108,7 +108,9 @@ void ProgramWords::put_into(WallSpec &wall) const
     if (!value) continue;
     n++;
     if (value->kind != ProgramValue::Kind::mesh)
-      throw InputError("in 'mesh', " + mesh.file + " is no mesh");
+      throw InputError(
+          "in 'mesh', " + mesh.file + " is no mesh" +
+          (value->kind == ProgramValue::Kind::text ? "" : ": make one of the numbers"));
     if (mesh.weld >= 0)
       throw InputError("in 'weld', the mesh " + mesh.file +
                        " was welded when it was made: leave the keyword out");

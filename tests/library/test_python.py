@@ -525,7 +525,7 @@ def test_walls():
          found.mesh.tolist() == [0, 0] and np.allclose(found.point, X * [1, 1, 0], rtol=0, atol=1e-15) and
          np.allclose(found.overlap, 0.5 - X[:, 2], rtol=0, atol=1e-15) and
          np.allclose(found.force, last, rtol=0, atol=1e-12), found)
-    refused("contacts that a wall does not keep", "set each_contact", wall_of().contacts, lsdcd.Error)
+    refused("contacts that a wall does not keep", "say each_contact when", wall_of().contacts, lsdcd.Error)
     hit = wall_of("impacts 0.1")
     high, down = np.array([[0.3, 0.2, 0.5005], [1.5, -1, 0.5005]]), np.array([[0, 0, -1.0], [0, 0, -2.0]])
     for k in range(2):
@@ -534,7 +534,7 @@ def test_walls():
     fact("two impacts of m v^2/2 are in their bins", bins.impacts[[0, -1]].tolist() == [1, 1] and bins.impacts.sum() == 2 and
          np.allclose(bins.energy[[0, -1]], [0.5, 2], rtol=1e-12, atol=0) and (totals.impacts, round(totals.impact_energy, 11)) == (2, 2.5) and
          bins.begins[0] <= 0.5 < bins.ends[0] and bins.begins[-1] <= 2 < bins.ends[-1] and np.array_equal(bins.ends[:-1], bins.begins[1:]), bins)
-    refused("impacts that a wall does not record", "set impact_speed", each.impacts, lsdcd.Error)
+    refused("impacts that a wall does not record", "say impacts V when", each.impacts, lsdcd.Error)
     rubs = "granular hooke 1000 20 tangential linear_history 500 1 0.4 damping mass_velocity heat radius 0 mesh $floor temperature 0"
     taken, lost = np.zeros(2), []
     for share in (0.25, 0):

@@ -174,7 +174,7 @@ MESH = lsdcd.Mesh(*FLOOR)
     (f"{STYLE} mesh $flor", {"floor": MESH}, r"'\$flor': there is no value of this name: the nearest is 'floor'"),
     (f"{STYLE} mesh $floor", {"floor": MESH, "lid": MESH}, r"the value 'lid' is given, and no word is \$lid"),
     (f"{STYLE} mesh x$floor", {"floor": MESH}, r"'x\$floor': \$NAME is a word of its own"),
-    (f"{STYLE} mesh $floor", {"floor": [[0, 0], [1, 1]]}, r"in 'mesh', \$floor is no mesh"),
+    (f"{STYLE} mesh $floor", {"floor": [[0, 0], [1, 1]]}, r"in 'mesh', \$floor is no mesh: make one of the numbers"),
     (f"{STYLE} mesh floor.stl cache $floor", {"floor": MESH}, r"'\$floor' is a mesh or rows, which stand behind 'mesh' or 'motion table' alone"),
     (f"{STYLE} mesh $floor weld 0.1", {"floor": MESH}, r"in 'weld', the mesh \$floor was welded when it was made"),
     (f"{STYLE} mesh $floor motion table $floor", {"floor": MESH}, r"in 'motion', \$floor has no rows"),
@@ -222,6 +222,8 @@ def test_inputs_and_changes():
         step()
     with pytest.raises(lsdcd.Error, match="the wall reads no v_sped: the nearest is 'speed'"):
         wall.set_input("sped", 1)
+    with pytest.raises(lsdcd.Error, match="the wall reads no v_v_speed: the name is without v_"):
+        wall.set_input("v_speed", 1)
     wall.set_input("speed", 3)
     by_input = step()
     fact("as the number", (by_input == forces_of_one_step(f"{STYLE} mesh $floor surface_vel 3 0 0")).all(), by_input)
