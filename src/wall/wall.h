@@ -145,7 +145,7 @@ class Wall {
 
   // The following functions are called between steps. If one of them throws InputError, nothing has changed.
 
-  // Replaces the names of inputs. The new names must begin with the present ones.
+  // Replaces the names of inputs. One of the two lists begins with the other.
   void set_inputs(const InputNames &inputs);
   // Returns why this mesh cannot have a motion, servo or pose, or an empty text if it can. Local.
   std::string why_it_takes_no_motion(int mesh) const { return meshes_[mesh].mover.why_no_motion(); }
