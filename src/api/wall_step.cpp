@@ -159,8 +159,8 @@ StepWanted agreed(lsdcd_wall &wall, const Failure &failure, StepWanted want)
     throw ApiError(
         LSDCD_ERROR_ARGUMENT,
         "poses given by lsdcd_wall_set_pose() differ between the processes, or nodes given by "
-        "lsdcd_wall_set_nodes() do: call it on all, in the same order, with the same "
-        "numbers");
+        "lsdcd_wall_set_nodes() or inputs by lsdcd_wall_set_input() do: call it on all, in the "
+        "same order, with the same numbers");
   want.look = most[4] > 0;
   step.reach = most[5];
   std::vector<std::int64_t> &tags = wall.caller.tags;

@@ -46,8 +46,8 @@ ProgramValue value_of(const lsdcd_value &given, const std::string &field)
     if (value.kind == Kind::numbers) return value;
     if (given.columns < 1 || given.n % static_cast<std::size_t>(given.columns) != 0)
       refuse_field(field + ".columns", std::to_string(given.columns),
-                   "the numbers of a row, of which n, " + std::to_string(given.n) +
-                       ", is a multiple");
+                   "it is 1 or more and divides n, " + std::to_string(given.n) +
+                       ", the numbers of all rows");
     value.columns = given.columns;
   }
   return value;
@@ -106,7 +106,11 @@ GivenWall read_wall(Host &host, const char *text, const std::vector<ProgramValue
         parse_wall(
             words.words(),
             [&](const WallMaterials &materials, const std::vector<MaterialPair> &pairs) {
-              return read_laws(host, materials, pairs, units, read);
+              try {
+                return read_laws(host, materials, pairs, units, read);
+              } catch (const InputError &e) {    // of a file, as those of meshes
+                throw ApiError(LSDCD_ERROR_INPUT, e.what());
+              }
             },
             &program)
             .wall;

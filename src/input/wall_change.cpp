@@ -41,8 +41,8 @@ int mesh_of(const std::vector<std::string> &arguments, const std::vector<MeshSpe
     if (meshes[mesh].name != given) continue;
     if (found >= 0)
       throw InputError("fix_modify mesh " + given + ": meshes " + std::to_string(found + 1) +
-                       " and " + std::to_string(mesh + 1) +
-                       " are called so: give the number of one, or names by the keyword name");
+                       " and " + std::to_string(mesh + 1) + " are called so: give " +
+                       (of_program ? "" : "the number of one, or ") + "names by the keyword name");
     found = static_cast<int>(mesh);
   }
   if (found >= 0) return found;

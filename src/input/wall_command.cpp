@@ -99,8 +99,25 @@ std::string answer_to(const std::string &word, bool granular)
   return "";
 }
 
+struct OfScripts {
+  const char *word;
+  const char *answer;    // to a program
+};
+
+constexpr OfScripts kOfScripts[] = {{"contacts", "write each_contact"},
+                                    {"draw", "LAMMPS alone draws pictures"},
+                                    {"cut", "LAMMPS alone draws pictures"}};
+
+// Returns the row of a keyword that LAMMPS alone has; null: it is none.
+const OfScripts *of_scripts(const std::string &word)
+{
+  for (const OfScripts &row : kOfScripts)
+    if (word == row.word) return &row;
+  return nullptr;
+}
+
 [[noreturn]] void refuse_keyword(const std::string &word, const std::vector<std::string> &names,
-                                 bool granular)
+                                 bool granular, bool of_program)
 {
   const std::string wrong = "'" + word + "' is not a keyword";
   const std::string answer = answer_to(word, granular);
@@ -116,21 +133,9 @@ std::string answer_to(const std::string &word, bool granular)
                                         : near + "': " + of_family));
   }
   std::string all;
-  for (const std::string &name : names) all += (all.empty() ? "" : ", ") + name;
-  throw InputError(wrong + "; those are " + all);
-}
-
-// Throws where a word is of LAMMPS alone.
-void refuse_of_scripts(const std::string &word)
-{
-  const struct {
-    const char *word;
-    const char *answer;
-  } rows[] = {{"contacts", "write each_contact"},
-              {"draw", "LAMMPS alone draws pictures"},
-              {"cut", "LAMMPS alone draws pictures"}};
-  for (const auto &row : rows)
-    if (word == row.word) throw InputError("'" + word + "' is a keyword of scripts: " + row.answer);
+  for (const std::string &name : names)
+    if (!of_program || !of_scripts(name)) all += (all.empty() ? "" : ", ") + name;
+  throw InputError(wrong + "; those are " + all + (of_program ? ", shapes" : ""));
 }
 
 // A keyword of a mesh belongs to the last mesh before it. If there is one mesh, it may also stand before
@@ -148,13 +153,14 @@ void read_keywords(Tokens &w, WallCommand &command, bool granular, bool of_progr
       read_material_of_mesh(w, meshes.size() - 1, meshes.back().file, command.materials);
       continue;
     }
-    if (of_program) refuse_of_scripts(word);
+    const OfScripts *const alone = of_program ? of_scripts(word) : nullptr;
+    if (alone) throw InputError("'" + word + "' is a keyword of scripts: " + alone->answer);
     if (of_program && word == "shapes" && !command.wall.shapes) {
       command.wall.shapes = true;
       continue;
     }
     const auto found = std::find(names.begin(), names.end(), word);
-    if (found == names.end()) refuse_keyword(word, names, granular);
+    if (found == names.end()) refuse_keyword(word, names, granular, of_program);
     const Keyword &row = keywords()[found - names.begin()];
     w.set_context(row.name, syntax_of(row));
     const bool next = word == "mesh" && !meshes.back().file.empty();

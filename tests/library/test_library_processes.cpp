@@ -234,7 +234,8 @@ TEST_F(processes, refuse_together_nodes_that_differ)
         (in_place ? x : v)[4] += differ && host.rank() == 1 ? 0.125 : 0.25;
         wall.set_nodes(0, x, v);
         EXPECT_EQ(has(text_of([&] { mine.step(wall); }),
-                      "nodes given by lsdcd_wall_set_nodes() do: call it on all"),
+                      "nodes given by lsdcd_wall_set_nodes() or inputs by lsdcd_wall_set_input() "
+                      "do: call it on all"),
                   differ)
             << in_place;
       }
