@@ -11,21 +11,37 @@
 #include <cmath>
 #include <cstring>
 #include <cuda_runtime_api.h>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
 namespace {
 
+const std::string kHertz = "hertz/history 1e5 5e4 100 50 0.5 1 ", kHooke = "hooke 1000 0 0 0 0 0 ";
+const std::string kOnWaves = kHertz + "mesh $waves ",
+                  kWavesAndRisingFloor = kOnWaves + "mesh $floor motion linear 0 0 0.2";
+
 class wall_gpu : public FloorTest {
  protected:
   // Waves of 2 x 16 x 16 triangles from -2 to 2: edges and vertices that stand out and in.
-  const std::string waves_ = file_ + ".waves.stl";
+  const std::string waves_file_ = file_ + ".waves.stl";
+  std::optional<api::Mesh> waves_;
 
   void SetUp() override
   {
     FloorTest::SetUp();
-    std::ofstream file(waves_);
+    write_waves();
+    waves_.emplace(waves_file_);
+  }
+  void TearDown() override
+  {
+    std::remove(waves_file_.c_str());
+    FloorTest::TearDown();
+  }
+  void write_waves() const
+  {
+    std::ofstream file(waves_file_);
     file << "solid w\n";
     const auto corner = [&](int i, int j) {
       file << "vertex " << -2 + 0.25 * i << " " << -2 + 0.25 * j << " "
@@ -45,23 +61,13 @@ class wall_gpu : public FloorTest {
       }
     file << "endsolid w\n";
   }
-  void TearDown() override
+  // $waves and $floor in the words are these meshes.
+  lsdcd::Wall wall_of(const std::string &words, const lsdcd_wall_options *options = nullptr) const
   {
-    std::remove(waves_.c_str());
-    FloorTest::TearDown();
-  }
-  static api::Law hertz(double kn = 1e5, double kt = 5e4, double mu = 0.5)
-  {
-    return api::Law::classic({"hertz/history", {kn, kt, 100, 50, mu, 1}});
-  }
-  static api::Law hooke() { return api::Law::classic({"hooke", {1000, 0, 0, 0, 0, 0}}); }
-  // Waves, and a floor that rises.
-  api::WallSpec waves_and_floor(const api::Mesh &waves) const
-  {
-    api::WallSpec spec = floor_of(hertz(), waves);
-    spec.meshes.emplace_back(*mesh_, "floor");
-    spec.meshes[1].motions = {api::Motion::linear({0, 0, 0.2})};
-    return spec;
+    lsdcd::Values values;
+    if (has(words, "$waves")) values.emplace_back("waves", *waves_);
+    if (has(words, "$floor")) values.emplace_back("floor", *mesh_);
+    return lsdcd::Wall(words, values, options);
   }
 };
 
@@ -163,29 +169,21 @@ TEST_F(wall_gpu, gives_arrays_on_a_device_the_forces_of_arrays_of_the_host)
 {
   // Same source, no contraction, IEEE division and root on both: no tolerance for forces. Totals are sums of at
   // most n contacts in another order: n roundings of the sum of sizes.
-  const api::Mesh waves(waves_);
-  api::WallSpec of_types = waves_and_floor(waves), worn = floor_of(hertz(), waves);
-  of_types.meshes[0].type_laws = {{2, 2, hertz(2e5, 1e5, 0.3)}};
-  worn.wear = LSDCD_ARCHARD;
-  worn.wear_coefficient = 1e-3;
-  worn.hardness = 1e6;
-  api::Law granular = api::Law::granular({"hertz", {1e5, 3}}, {"linear_history", {5e4, 1, 0.5}});
-  granular.rolling = {"sds", {2e3, 5, 0.1}};
-  granular.heat = {"area", {1}};
-  api::WallSpec hot = floor_of(granular, waves);
-  hot.meshes[0].temperature = 350;
   const struct {
     const char *text;
-    api::WallSpec spec;
-  } walls[] = {{"hertz", floor_of(hertz(), waves)},
-               {"and a floor that moves", waves_and_floor(waves)},
-               {"and a law of types", of_types},
-               {"wear", worn},
-               {"granular, with heat", hot}};
+    std::string words;
+  } walls[] = {{"hertz", kOnWaves},
+               {"and a floor that moves", kWavesAndRisingFloor},
+               {"and a law of types", kOnWaves + "law types 2 hertz/history 2e5 1e5 100 50 0.3 1 "
+                                                 "mesh $floor motion linear 0 0 0.2"},
+               {"wear", kOnWaves + "wear archard 1e-3 1e6"},
+               {"granular, with heat", "granular hertz 1e5 3 tangential linear_history 5e4 1 0.5 "
+                                       "rolling sds 2e3 5 0.1 heat area 1 mesh $waves "
+                                       "temperature 350"}};
   constexpr int kSpheres = 300, kSteps = 60;
-  for (const auto &[text, spec] : walls) {
+  for (const auto &[text, words] : walls) {
     const lsdcd::WallOptions options = on_device();
-    lsdcd::Wall host(spec), device(spec, &options);
+    lsdcd::Wall host = wall_of(words), device = wall_of(words, &options);
     Rain there(kSpheres), here(kSpheres);
     Copies on_gpu(true), on_cpu(false);
     double contacts = 0;
@@ -215,16 +213,11 @@ TEST_F(wall_gpu, gives_arrays_on_a_device_the_forces_of_arrays_of_the_host)
 // 100 steps; 1e-9 lets contacts multiply that by 300. Other joints, and saved states: unit/test_body_on_device.
 TEST_F(wall_gpu, moves_a_body_on_a_device_as_on_the_host)
 {
-  const lsdcd::Mesh waves(waves_);
-  api::RigidBody hinge(200, {0, 0, 0.4}, {300, 300, 600, 0, 0, 0});
-  hinge.hinge({0, 0, 0.4}, {1, 0.5, 0});
-  hinge.stiffness = 5e4;
-  hinge.damping = 100;
-  api::WallSpec spec =
-      floor_of(api::Law::classic({"hertz/history", {1e5, 5e4, 0, 0, 0.5, 0}}), waves);
-  spec.meshes[0].body = hinge;
+  const std::string words = "hertz/history 1e5 5e4 0 0 0.5 0 mesh $waves "
+                            "body mass 200 com 0 0 0.4 inertia 300 300 600 0 0 0 "
+                            "joint hinge 0 0 0.4 1 0.5 0 spring 5e4 100";
   const lsdcd::WallOptions options = on_device();
-  lsdcd::Wall host(spec), device(spec, &options);
+  lsdcd::Wall host = wall_of(words), device = wall_of(words, &options);
   constexpr int kSpheres = 300, kSteps = 100;
   constexpr double kApart = 1e-9;
   Rain there(kSpheres), here(kSpheres);
@@ -255,12 +248,9 @@ TEST_F(wall_gpu, moves_a_body_on_a_device_as_on_the_host)
 // the stiffness, 1.5 kn sqrt(R overlap) <= 6e4, and springs add this up from step to step.
 TEST_F(wall_gpu, takes_poses_of_the_caller_on_a_device_as_on_the_host)
 {
-  const lsdcd::Mesh waves(waves_), plate(file_);
-  api::WallSpec spec = floor_of(hertz(), waves);
-  spec.meshes.emplace_back(plate, "plate");
-  spec.meshes[1].posed_by_caller = true;
+  const std::string words = kOnWaves + "mesh $floor name plate motion caller";
   const lsdcd::WallOptions options = on_device();
-  lsdcd::Wall host(spec), device(spec, &options);
+  lsdcd::Wall host = wall_of(words), device = wall_of(words, &options);
   constexpr int kSpheres = 300, kSteps = 60;
   constexpr double kRounding = (kSteps + 1) * 6e4 * 3e-15;
   Rain there(kSpheres), here(kSpheres);
@@ -300,16 +290,15 @@ TEST_F(wall_gpu, takes_poses_of_the_caller_on_a_device_as_on_the_host)
 // that grids are built several times. The places come back.
 TEST_F(wall_gpu, takes_nodes_in_arrays_of_the_device_as_those_of_the_host)
 {
-  const lsdcd::Mesh by_corners(
-      waves_);    // nodes of a vertex that facets share are given several times
+  const lsdcd::Mesh &by_corners =
+      *waves_;    // nodes of a vertex that facets share are given several times
   const lsdcd::MeshArrays shared = by_corners.arrays();
   const lsdcd::Mesh by_vertices(shared.vertices, shared.faces);
   for (const lsdcd::Mesh *waves : {&by_corners, &by_vertices}) {
-    api::WallSpec spec = floor_of(hertz(), *waves);
-    spec.meshes[0].nodes_by_caller = true;
-    spec.meshes[0].pressure = 50;
+    const std::string words = kOnWaves + "nodes caller pressure 50";
+    const lsdcd::Values values = {{"waves", *waves}};
     const lsdcd::WallOptions options = on_device();
-    lsdcd::Wall host(spec), device(spec, &options);
+    lsdcd::Wall host(words, values), device(words, values, &options);
     constexpr int kSpheres = 300, kSteps = 100;
     Rain there(kSpheres), here(kSpheres);
     Copies on_gpu(true), on_cpu(false);
@@ -350,15 +339,12 @@ TEST_F(wall_gpu, takes_nodes_in_arrays_of_the_device_as_those_of_the_host)
 // What the host would tell at once the next step tells, and nodes stay where they were; arrays elsewhere are refused.
 TEST_F(wall_gpu, tells_of_nodes_in_arrays_of_the_device_in_the_next_step)
 {
-  const lsdcd::MeshArrays shared =
-      lsdcd::Mesh(waves_).arrays();    // nodes in place are given once each
+  const lsdcd::MeshArrays shared = waves_->arrays();    // nodes in place are given once each
   const lsdcd::Mesh waves(shared.vertices, shared.faces);
-  api::WallSpec spec;
-  spec.law = api::Law::classic({"hooke", {1e5, 5e4, 100, 50, 0.5, 1}});
-  spec.meshes.emplace_back(waves, "waves");
-  spec.meshes[0].nodes_by_caller = true;
+  const std::string words = "hooke 1e5 5e4 100 50 0.5 1 mesh $waves nodes caller";
+  const lsdcd::Values values = {{"waves", waves}};
   const lsdcd::WallOptions options = on_device();
-  lsdcd::Wall wall(spec, &options), host(spec);
+  lsdcd::Wall wall(words, values, &options), host(words, values);
   Rain rain(50);
   Copies on_gpu(true);
   on_gpu.step(wall, rain, step_with(true));
@@ -366,7 +352,7 @@ TEST_F(wall_gpu, tells_of_nodes_in_arrays_of_the_device_in_the_next_step)
   Copies::Numbers at{true}, speed{true};
   // A step has then failed half-way, and the wall takes no other one.
   const auto error = [&](std::size_t which, double x, double v) {
-    lsdcd::Wall failing(spec, &options);
+    lsdcd::Wall failing(words, values, &options);
     on_gpu.step(failing, rain, step_with(true));
     std::vector<double> to = rest, fast(rest.size(), 0);
     to[which] += x;
@@ -389,17 +375,10 @@ TEST_F(wall_gpu, tells_of_nodes_in_arrays_of_the_device_in_the_next_step)
 // another order, so that ways of below 0.1 differ by 300 roundings, 3e-15, and forces as above.
 TEST_F(wall_gpu, wear_moves_a_mesh_on_a_device_as_on_the_host)
 {
-  const lsdcd::Mesh waves(waves_);
-  api::WallSpec spec = floor_of(hertz(), waves);
-  spec.wear = LSDCD_ARCHARD;
-  spec.wear_coefficient = 1e-2;
-  spec.hardness = 1e3;
-  spec.wear_deform_every = 5;
-  spec.wear_deform_factor = 10;
-  api::WallSpec copied = spec;
-  copied.device = LSDCD_CUDA;
+  const std::string words = kOnWaves + "wear archard 1e-2 1e3 deform every 5 factor 10 ";
   const lsdcd::WallOptions options = on_device();
-  lsdcd::Wall host(spec), device(spec, &options), copies(copied);
+  lsdcd::Wall host = wall_of(words), device = wall_of(words, &options),
+              copies = wall_of(words + "device cuda");
   constexpr int kSpheres = 300, kSteps = 60;
   constexpr double kRounding = (kSteps + 1) * 6e4 * 3e-15;
   Rain here(kSpheres), there = here, beside = here;
@@ -429,13 +408,12 @@ TEST_F(wall_gpu, wear_moves_a_mesh_on_a_device_as_on_the_host)
 TEST_F(wall_gpu, gives_each_of_two_processes_the_forces_of_arrays_of_the_host)
 {
   // Both threads use the GPU at once. No tolerance, as above: no sum is over the processes but that of contacts.
-  const api::Mesh waves(waves_);
-  const api::WallSpec spec = waves_and_floor(waves);
   constexpr int kSpheres = 200, kSteps = 60;
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &fake) {
     Process of_host(fake), of_device(fake);
     of_device.options.device = LSDCD_CUDA;
-    lsdcd::Wall host(spec, &of_host.options), device(spec, &of_device.options);
+    lsdcd::Wall host = wall_of(kWavesAndRisingFloor, &of_host.options),
+                device = wall_of(kWavesAndRisingFloor, &of_device.options);
     // Other numbers of other spheres.
     const int rank = fake.rank();
     Rain there(kSpheres + 50 * rank, rank), here(kSpheres + 50 * rank, rank);
@@ -457,10 +435,9 @@ TEST_F(wall_gpu, gives_each_of_two_processes_the_forces_of_arrays_of_the_host)
 
 TEST_F(wall_gpu, lets_springs_follow_spheres_that_change_their_numbers)
 {
-  const api::Mesh waves(waves_);
-  const api::WallSpec spec = floor_of(hertz(), waves);
   const lsdcd::WallOptions options = on_device();
-  lsdcd::Wall straight(spec, &options), turned(spec, &options), restored(spec, &options);
+  lsdcd::Wall straight = wall_of(kOnWaves, &options), turned = wall_of(kOnWaves, &options),
+              restored = wall_of(kOnWaves, &options);
   Rain a(100), b(100);
   Copies copies(true), others(true);
   for (int k = 0; k < 30; k++) {
@@ -507,9 +484,7 @@ TEST_F(wall_gpu, acts_through_a_periodic_face_and_warns_past_it)
   Shown shown;
   shown.device = LSDCD_CUDA;
   set_box(shown, 20);
-  api::WallSpec spec = floor();
-  spec.meshes[0].placement.move(0, 0, -19.6);
-  lsdcd::Wall wall(spec, &shown);
+  lsdcd::Wall wall = floor_wall("move 0 0 -19.6", &shown);
   Rain one(1);
   one.radius = {0.5};
   one.v = one.omega = {0, 0, 0};
@@ -527,7 +502,7 @@ TEST_F(wall_gpu, acts_through_a_periodic_face_and_warns_past_it)
 TEST_F(wall_gpu, tells_of_a_sphere_in_the_next_call)
 {
   const lsdcd::WallOptions options = on_device();
-  lsdcd::Wall wall(floor_of(hertz(), *mesh_), &options);
+  lsdcd::Wall wall = wall_of(kHertz + "mesh $floor", &options);
   Rain rain(2);
   rain.x = {0, 0, 0.05, 1, 0, 0.05};
   Copies copies(true);
@@ -542,7 +517,7 @@ TEST_F(wall_gpu, tells_of_a_sphere_in_the_next_call)
 TEST_F(wall_gpu, takes_radii_that_have_grown)
 {
   const lsdcd::WallOptions options = on_device();
-  lsdcd::Wall wall(floor_of(hooke(), *mesh_), &options);
+  lsdcd::Wall wall = wall_of(kHooke + "mesh $floor", &options);
   Rain rain(1);
   rain.x = {0, 0, 0.3};
   rain.radius = {0.2};
@@ -557,9 +532,7 @@ TEST_F(wall_gpu, takes_radii_that_have_grown)
 TEST_F(wall_gpu, checks_types_in_steps_that_look)
 {
   const lsdcd::WallOptions options = on_device();
-  api::WallSpec spec = floor_of(hooke(), *mesh_);
-  spec.meshes[0].type_laws = {{2, 2, hooke()}};
-  lsdcd::Wall wall(spec, &options);
+  lsdcd::Wall wall = wall_of(kHooke + "mesh $floor law types 2 " + kHooke, &options);
   Rain rain(2);
   Copies copies(true);
   copies.step(wall, rain, step_of());
@@ -570,9 +543,9 @@ TEST_F(wall_gpu, checks_types_in_steps_that_look)
 
 TEST_F(wall_gpu, refuses_an_array_that_is_elsewhere_before_it_writes)
 {
-  api::WallSpec spec = floor_of(hooke(), *mesh_);
+  const std::string words = kHooke + "mesh $floor";
   const lsdcd::WallOptions options = on_device();
-  lsdcd::Wall host(spec), device(spec, &options);
+  lsdcd::Wall host = wall_of(words), device = wall_of(words, &options);
   Rain rain(1);
   rain.x = {0, 0, 0.05};
   Copies on_gpu(true);
@@ -588,8 +561,17 @@ TEST_F(wall_gpu, refuses_an_array_that_is_elsewhere_before_it_writes)
             "the array `x` is in a GPU's memory: make the wall with device LSDCD_CUDA");
   device.step(s, step_of());
   EXPECT_GT(on_gpu.force.get(3)[2], 0);
-  spec.device = LSDCD_AUTO;    // of arrays of the host
-  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(spec, &options); }), LSDCD_ERROR_ARGUMENT);
+}
+
+// The word device says where forces of arrays of the host are computed.
+TEST_F(wall_gpu, with_arrays_on_a_device_takes_no_device_in_words)
+{
+  const lsdcd::WallOptions options = on_device();
+  for (const char *device : {"cpu", "cuda"}) {
+    const auto make = [&] { wall_of(kHooke + "mesh $floor device " + device, &options); };
+    EXPECT_TRUE(is_refused("in 'device', the arrays of the spheres say where", make));
+    EXPECT_EQ(code_of(make), LSDCD_ERROR_ARGUMENT) << device;
+  }
 }
 
 TEST_F(wall_gpu, keeps_the_order_of_its_stream)
@@ -598,7 +580,7 @@ TEST_F(wall_gpu, keeps_the_order_of_its_stream)
   ASSERT_EQ(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), cudaSuccess);
   {
     const lsdcd::WallOptions options = on_device(stream);
-    lsdcd::Wall wall(floor_of(hooke(), *mesh_), &options);
+    lsdcd::Wall wall = wall_of(kHooke + "mesh $floor", &options);
     Rain rain(1);
     rain.radius = {0.2};
     rain.x = {0, 0, 0.15};
