@@ -31,6 +31,35 @@ constexpr double kStep = 0x1p-10;
 
 class wall_spec : public FloorTest {
  protected:
+  static api::Law hooke_history(double kn = kN)
+  {
+    return api::Law::classic({"hooke/history", {kn, kT, 0, 0, 0.5, 0}});
+  }
+  api::WallSpec floor_of(const api::Law &law, const api::Mesh &mesh) const
+  {
+    api::WallSpec spec;
+    spec.law = law;
+    spec.meshes.emplace_back(mesh, "floor");
+    return spec;
+  }
+  api::WallSpec floor(const api::Law &law = hooke_history()) const { return floor_of(law, *mesh_); }
+  api::WallSpec floor_that_moves(const api::Motion &motion) const
+  {
+    api::WallSpec spec = floor();
+    spec.meshes[0].motions = {motion};
+    return spec;
+  }
+  // By a servo along z.
+  api::WallSpec floor_that_pushes(double force, double max_speed) const
+  {
+    api::WallSpec spec = floor();
+    api::Servo servo;
+    servo.axis[2] = 1;
+    servo.target = force;
+    servo.max_speed = max_speed;
+    spec.meshes[0].servo = servo;
+    return spec;
+  }
   // Of the same floor in a script.
   std::vector<std::string> words(const std::string &more = "") const
   {
