@@ -40,7 +40,7 @@ std::string row_of(const Values &...values)
 
 // What follows takes structs apart by the names of all their members: one that is new does not compile before it is decided
 // here whether saved data are of a wall with another one; members of WallSpec and MeshSpec are in the walk of
-// tests/library/wall_fields.py. Inputs are by their names (InputsText).
+// tests/library/wall_fields.py, their keywords in the rows of wall_words.py. Inputs are by their names (InputsText).
 
 template <class Model>
 std::string numbers_of(const Chosen<Model> &chosen)
@@ -91,18 +91,32 @@ std::string text_of(const JointDrive &drive)
   return text;
 }
 
+// Returns a number, or 0 where it is the last value of an input, whose name is what counts.
+Real fixed(Real value, int input)
+{
+  return input == kNoInput ? value : 0;
+}
+
+Vec3 fixed(const Vec3 &values, const int (&inputs)[3])
+{
+  return {fixed(values.x, inputs[0]), fixed(values.y, inputs[1]), fixed(values.z, inputs[2])};
+}
+
 // The data have its velocities, which it has at the start alone.
 std::string text_of(const BodySpec &body)
 {
   const auto &[present, density, mass, joint, drive, load, moment, motor_input, load_input,
                moment_input, velocity, omega, has_gravity, gravity, coat] = body;
   if (!present) return "none";
+  JointDrive fixed_drive = drive;
+  fixed_drive.motor = fixed(drive.motor, motor_input);
   const SymmetricMatrix &i = mass.inertia;
   return std::string(kJointNames[static_cast<int>(joint.kind)]) + " " +
          row_of(joint.point, joint.axis) + ", of density " + text_of(density) + ", mass " +
          text_of(mass.mass) + ", centre " + text_of(mass.centre) + " and inertia " +
-         row_of(i.xx, i.yy, i.zz, i.xy, i.xz, i.yz) + text_of(drive) + ", load " + text_of(load) +
-         ", moment " + text_of(moment) + (has_gravity ? ", gravity " + text_of(gravity) : "") +
+         row_of(i.xx, i.yy, i.zz, i.xy, i.xz, i.yz) + text_of(fixed_drive) + ", load " +
+         text_of(fixed(load, load_input)) + ", moment " + text_of(fixed(moment, moment_input)) +
+         (has_gravity ? ", gravity " + text_of(gravity) : "") +
          (coat.present ? ", with a coat of the spacing " + text_of(coat.spacing) + " and radius " +
                              text_of(coat.radius)
                        : "");
@@ -139,7 +153,8 @@ std::string numbers_of(const Servo &servo)
 {
   const auto &[present, holds, turns, axis, point, target, target_input, max_gain, max_speed, lo,
                hi, position, velocity] = servo;
-  return present ? row_of(point, axis, target, max_speed, max_gain, lo, hi) : "";
+  return present ? row_of(point, axis, fixed(target, target_input), max_speed, max_gain, lo, hi)
+                 : "";
 }
 
 // The names of the inputs behind some numbers, in their order.
@@ -158,10 +173,9 @@ class InputsText {
   {
     for (const int input : inputs) add(input);
   }
-  // Adds them where there is one.
   void add_to(WallParts &parts, const std::string &of) const
   {
-    if (any_) parts.push_back({"inputs" + of, text_});
+    parts.push_back({"inputs" + of, any_ ? text_ : "none"});
   }
 
  private:
@@ -225,8 +239,10 @@ void add_made(const WallSpec &wall, std::size_t k, WallParts &parts)
   parts.push_back({"placement" + of, text_of(mesh.placement)});
   parts.push_back({"law" + of, text_of(mesh.laws)});
   parts.push_back({"surface velocity" + of, text_of(mesh.surface)});
-  if (mesh.has_nodes) parts.push_back({"pressure" + of, text_of(mesh.pressure)});
-  if (mesh.has_temperature) parts.push_back({"temperature" + of, text_of(mesh.temperature)});
+  if (mesh.has_nodes)
+    parts.push_back({"pressure" + of, text_of(fixed(mesh.pressure, mesh.pressure_input))});
+  if (mesh.has_temperature)
+    parts.push_back({"temperature" + of, text_of(fixed(mesh.temperature, mesh.temperature_input))});
   InputsText inputs(wall.inputs);
   inputs.add(mesh.surface_input);
   inputs.add(mesh.pressure_input);

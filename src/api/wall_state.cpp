@@ -143,8 +143,8 @@ Saved saved_of(const lsdcd_wall &wall, const double *numbers, std::size_t count,
   const std::string differ = differences(parts_of(wall), parts);
   if (!what_fits && !differ.empty())
     throw ApiError(LSDCD_ERROR_ARGUMENT, "these are numbers of a different wall: " + differ +
-                                             ". Make the wall of the spec that it had, with the "
-                                             "motion, servo or body that was set later, or "
+                                             ". Make the wall as it was made, with the motion, "
+                                             "servo or body that was set later, or "
                                              "take what fits by lsdcd_wall_restore_what_fits()");
   return saved;
 }

@@ -398,9 +398,12 @@ void Wall::change_surfaces(const Step &step)
 Real Wall::pressure(int mesh) const
 {
   const MeshSpec &spec = spec_.meshes[mesh];
-  return spec.pressure_input == kNoInput
-             ? spec.pressure
-             : input_.inputs.at(static_cast<std::size_t>(spec.pressure_input)) / pressure_unit_;
+  if (spec.pressure_input == kNoInput) return spec.pressure;
+  const std::size_t k = static_cast<std::size_t>(spec.pressure_input);
+  if (k >= input_.inputs.size())
+    throw InputError("the pressure of mesh '" + spec.name + "' is v_" + spec_.inputs[k] +
+                     ", which has had no value in a step yet: ask for forces on nodes after one");
+  return input_.inputs[k] / pressure_unit_;
 }
 
 const std::vector<Real> &Wall::node_forces(int mesh)
