@@ -94,7 +94,8 @@ void check_names(const lsdcd_wall &wall, const std::ptrdiff_t *to,
   }
 }
 
-constexpr const char *kSpheres = "springs of spheres", *kStep = "step", *kParts = "parts";
+constexpr const char *kSpheres = "springs of spheres", *kStep = "step", *kParts = "parts",
+                     *kInputs = "inputs", *kInputNames = "names of inputs";
 
 WallParts parts_of(const lsdcd_wall &wall)
 {
@@ -103,26 +104,48 @@ WallParts parts_of(const lsdcd_wall &wall)
   return parts;
 }
 
-// Reads what lsdcd_wall_save() wrote. Throws StateError.
-void read_saved(const Real *numbers, std::size_t n, WallState &state, SphereHistories &spheres,
-                std::int64_t &step, WallParts &parts)
-{
-  const State all(WallState::kKind, numbers, n);
-  all.read(kParts, 1, parts);
-  all.read(kSpheres, 1, spheres);
-  all.read(kStep, 1, step);
-  state = WallState::from(all);
-  if (all.numbers().size() != n) throw StateError("the data of the wall are too long");
-  for (const std::vector<Real> &sphere : spheres)
-    if (sphere.empty()) throw StateError("the data of the wall have a sphere without a number");
-}
-
 // What lsdcd_wall_save() has written.
 struct Saved {
   WallState state;
   SphereHistories spheres;
   std::int64_t step = 0;
+  WallParts parts;
+  // Of the last step, if it had some; the names are one row.
+  std::vector<Real> inputs;
+  WallParts input_names;
 };
+
+// Reads what lsdcd_wall_save() wrote. Throws StateError.
+Saved read_saved(const Real *numbers, std::size_t n)
+{
+  Saved saved;
+  const State all(WallState::kKind, numbers, n);
+  all.read(kParts, 1, saved.parts);
+  all.read(kSpheres, 1, saved.spheres);
+  all.read(kStep, 1, saved.step);
+  all.find(kInputs, 1, saved.inputs);
+  all.find(kInputNames, 1, saved.input_names);
+  saved.state = WallState::from(all);
+  if (all.numbers().size() != n) throw StateError("the data of the wall are too long");
+  for (const std::vector<Real> &sphere : saved.spheres)
+    if (sphere.empty()) throw StateError("the data of the wall have a sphere without a number");
+  const bool has_names = saved.input_names.size() == 1;
+  if (has_names ? saved.input_names.front().size() != saved.inputs.size() : !saved.inputs.empty())
+    throw StateError("the data of the wall have inputs without names");
+  return saved;
+}
+
+// The values of the last step in the order in which the wall has its inputs; 0: there was none of this name.
+std::vector<Real> last_inputs(const Saved &saved, const InputNames &names)
+{
+  std::vector<Real> values(names.size());
+  const std::vector<std::string> &was = saved.input_names.front();
+  for (std::size_t k = 0; k < names.size(); k++) {
+    const auto found = std::find(was.begin(), was.end(), names[k]);
+    if (found != was.end()) values[k] = saved.inputs[static_cast<std::size_t>(found - was.begin())];
+  }
+  return values;
+}
 
 // Throws ApiError where the numbers are of no wall, or, without `what_fits`, of another one.
 Saved saved_of(const lsdcd_wall &wall, const double *numbers, std::size_t count, bool what_fits)
@@ -131,16 +154,15 @@ Saved saved_of(const lsdcd_wall &wall, const double *numbers, std::size_t count,
   if (wall.in->has_begun())
     throw ApiError(LSDCD_ERROR_ARGUMENT, "a wall is restored before its first step");
   Saved saved;
-  WallParts parts;
   try {
-    read_saved(numbers, count, saved.state, saved.spheres, saved.step, parts);
+    saved = read_saved(numbers, count);
   } catch (const StateError &e) {
     throw ApiError(LSDCD_ERROR_ARGUMENT,
                    std::string("these are not the numbers that lsdcd_wall_save() wrote, all of "
                                "them: ") +
                        e.what());
   }
-  const std::string differ = differences(parts_of(wall), parts);
+  const std::string differ = differences(parts_of(wall), saved.parts);
   if (!what_fits && !differ.empty())
     throw ApiError(LSDCD_ERROR_ARGUMENT, "these are numbers of a different wall: " + differ +
                                              ". Make the wall as it was made, with the motion, "
@@ -156,6 +178,7 @@ void restore(lsdcd_wall &wall, const double *numbers, std::size_t count, bool wh
   std::vector<Real> none;
   wall.caller.agree(failure_of([&] { saved = saved_of(wall, numbers, count, what_fits); }), none);
   wall.in->keep_made();
+  if (!saved.inputs.empty()) wall.in->restore_inputs(last_inputs(saved, wall.in->spec().inputs));
   wall.in->restore(saved.state, {saved.step, wall.dt});
   wall.number = saved.step;
   wall.in->restore_springs(saved.spheres);
@@ -224,6 +247,13 @@ int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *coun
     state.add(kSpheres, 1, spheres);
     state.add(kStep, 1, wall->number);
     state.add(kParts, 1, parts_of(*wall));
+    const std::vector<Real> &inputs = wall->in->last_inputs();
+    if (!inputs.empty()) {    // those of a change since then come behind them
+      const auto names = wall->in->spec().inputs.begin();
+      state.add(kInputs, 1, inputs);
+      state.add(kInputNames, 1,
+                WallParts{{names, names + static_cast<std::ptrdiff_t>(inputs.size())}});
+    }
     const std::vector<Real> all = state.numbers();
     *count = all.size();
     std::copy_n(all.begin(), std::min(room, all.size()), numbers);

@@ -674,6 +674,12 @@ void Wall::write_due_files()
 
 // ---- another motion ----------------------------------------------------------------------
 
+void Wall::restore_inputs(const std::vector<Real> &values)
+{
+  input_.inputs = values;
+  for (MeshPart &m : meshes_) m.mover.take_inputs(values);
+}
+
 void Wall::set_inputs(const InputNames &inputs)
 {
   spec_.inputs = inputs;

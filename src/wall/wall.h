@@ -145,6 +145,10 @@ class Wall {
 
   // The following functions are called between steps. If one of them throws InputError, nothing has changed.
 
+  // Returns the values of spec().inputs in the last step; none before the first one.
+  const std::vector<Real> &last_inputs() const { return input_.inputs; }
+  // Takes those of the step from which restore() is to go on: with them bodies end it, and pressures act on nodes. Before that.
+  void restore_inputs(const std::vector<Real> &values);
   // Replaces the names of inputs. One of the two lists begins with the other.
   void set_inputs(const InputNames &inputs);
   // Returns why this mesh cannot have a motion, servo or pose, or an empty text if it can. Local.

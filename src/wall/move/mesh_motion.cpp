@@ -118,6 +118,12 @@ bool MeshMotion::adds_up() const
   return false;
 }
 
+void MeshMotion::take_inputs(const std::vector<Real> &inputs)
+{
+  for_inputs(spec(), surface_,
+             [&](int input, Real &value) { value = inputs.at(static_cast<std::size_t>(input)); });
+}
+
 Real MeshMotion::advance(const Step &to, const std::vector<Real> &inputs)
 {
   before_ = pose_;
@@ -127,8 +133,7 @@ Real MeshMotion::advance(const Step &to, const std::vector<Real> &inputs)
   const Real passed = static_cast<Real>(clock_.now() - before);
   std::vector<MotionTerm> &terms = spec().motion.terms();
   const std::vector<MotionTerm> was = terms;
-  for_inputs(spec(), surface_,
-             [&](int input, Real &value) { value = inputs.at(static_cast<std::size_t>(input)); });
+  take_inputs(inputs);
   for (std::size_t i = 0; i < terms.size() && passed > 0; i++)
     for (int d = 0; d < 3; d++) {
       if (terms[i].takes_difference(d))

@@ -36,6 +36,8 @@ class MeshMotion {
   // The clock goes on to this step, whose inputs have these values, one for each input of the wall. Returns the
   // time that has passed.
   Real advance(const Step &to, const std::vector<Real> &inputs);
+  // Takes the values of inputs, which advance() takes in each step.
+  void take_inputs(const std::vector<Real> &inputs);
   // Puts the mesh where the motion and the servo have it now.
   void place() { pose_ = pose_in(0); }
   Pose pose_in(Time later) const;    // that much time from now

@@ -63,6 +63,8 @@ class Mover {
 
   // Goes on to this step, whose inputs have these values, one for each input of the wall.
   void advance(const Step &to, const std::vector<Real> &inputs, const LastLoad &load);
+  // Takes the values of inputs, which advance() takes in each step.
+  void take_inputs(const std::vector<Real> &inputs) { motion_.take_inputs(inputs); }
   // Puts the mesh where it has come to.
   void place() { motion_.place(); }
   // Returns the force, or the torque, of the mesh on the spheres along the axis of its servo.
