@@ -994,7 +994,7 @@ LSDCD_API int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, si
  * pose and nodes that were set for the next one are set. Numbers of a wall that differs in a field on which a number hangs are refused with what differs (LSDCD_ERROR_ARGUMENT), and
  * the wall stays as it is. These are all but names and files, `device`, `brief`, `each_contact`, `periodic_ends`, `stl_every`, without `nearest` also
  * `cell`, `memory` and `rmax`, and of lsdcd_wall_options all but the corners of periodic axes. A motion, servo or body that
- * was set later is set before. Own. */
+ * was set later is set before; inputs get their values again for the next step. Own. */
 LSDCD_API int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count);
 /* Takes from numbers of another wall what fits this one; what does not, `show` tells. Else as lsdcd_wall_restore(). Own. */
 LSDCD_API int lsdcd_wall_restore_what_fits(lsdcd_wall *wall, const double *numbers, size_t count);
