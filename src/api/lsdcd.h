@@ -548,8 +548,8 @@ typedef struct lsdcd_wall_options {
    * wall. */
   void *stream;
   int device;
-  const char *
-      units; /* of a wall by words: those of numbers from files of materials, "si", "cgs", "micro" or "nano"; null: "si" */
+  /* Of a wall by words: those of numbers from files of materials, "si", "cgs", "micro" or "nano"; null: "si". */
+  const char *units;
 } lsdcd_wall_options;
 
 /* Laws of atom types with a mesh. In an array all elements have the same size. */

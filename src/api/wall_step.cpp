@@ -61,6 +61,7 @@ void check_synchronous(const lsdcd_wall &wall, const lsdcd_wall_step &step)
 void check_inputs(const lsdcd_wall &wall)
 {
   const InputNames &names = wall.in->spec().inputs;
+  if (names.empty()) return;
   for (const int input : wall.in->inputs_read()) {
     const std::size_t k = static_cast<std::size_t>(input);
     if (k >= wall.inputs.size() || !wall.inputs[k])

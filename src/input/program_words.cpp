@@ -64,11 +64,12 @@ ProgramWords::ProgramWords(const std::string &text, const std::vector<ProgramVal
       if (mark != 0) throw InputError("'" + word + "': $NAME is a word of its own");
       const std::string name = word.substr(1);
       const ProgramValue *const value = find(name);
-      std::vector<std::string> names;
-      for (const ProgramValue &one : values) names.push_back(one.name);
-      if (!value)
+      if (!value) {
+        std::vector<std::string> names;
+        for (const ProgramValue &one : values) names.push_back(one.name);
         throw InputError("'" + word + "': there is no value of this name" +
                          (names.empty() ? "" : ": " + nearest_or_all(name, names)));
+      }
       used.push_back(name);
       if (value->kind == ProgramValue::Kind::text)
         words_.push_back(value->text);
