@@ -66,7 +66,7 @@ def time_scene(host, bed, grains, options, work):
     quiet = f"thermo_style custom step atoms\nthermo 100000000\ntimestep {SETTLE_DT if moves else DT}\n"
     run = host.run(plugin_script(host, bed) + "variable began timer\n" + first_script(bed) +
                    FORCES.format(bed=bed, sort=ORDERS["sorted"], pair=pair) + quiet +
-                   SCRIPT.format(warm=WARM, chunks=f"run {options.steps} pre no\n" * options.chunks, memory=ask, wall=bed.wall(),
+                   SCRIPT.format(warm=WARM, chunks=f"run {options.steps}\n" * options.chunks, memory=ask, wall=bed.wall(),
                                  settle=f"run {options.settle}" * moves),
                    work, bed.ranks, may_fail=True)
     if run.failed:

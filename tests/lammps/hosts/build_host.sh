@@ -259,7 +259,7 @@ rm -f "$work"/src/KOKKOS/{angle,bond,dihedral,improper}_* \
 if [ $precision$backend != doubleSERIAL ]; then
   # Of its package KOKKOS the styles that the scripts use, and what LAMMPS names in its list of sources.
   find "$work/src/KOKKOS" -regextype egrep -regex '.*/(atom_vec|compute|dynamical|fix|min|pair|third)_.*' ! -regex \
-    ".*/(atom_vec(_sphere|_atomic)?|compute_(temp|erotate_sphere)|min(_cg|_linesearch)?|pair(_gran_hooke_history)?)_kokkos[.].*" ! -regex \
+    ".*/(atom_vec(_sphere|_atomic)?|compute_(temp|erotate_sphere)|min(_cg|_linesearch)?|pair(_gran_hooke_history|_hybrid|_hybrid_overlay)?)_kokkos[.].*" ! -regex \
     ".*/fix_(enforce2d|freeze|gravity|minimize|neigh_history|nh|nh_sphere|nve|nve_sphere|property_atom|setforce|wall_gran)_(kokkos|old)[.].*" -delete
 fi
 if [ -n "$small" ] || [ $backend != SERIAL ]; then
