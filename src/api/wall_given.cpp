@@ -6,7 +6,6 @@
 #include "api/law_given.h"
 #include "api/objects.h"
 #include "api/refusals.h"
-#include "bodies/read_pose.h"
 #include "law/sub_models.h"
 #include "output/file_series.h"
 #include "wall/spec/run_files.h"
@@ -476,25 +475,6 @@ BodySpec body_of(const lsdcd_rigid_body *pointer, const std::string &field, bool
   body.has_gravity = true;
   body.gravity = vector(given.gravity, "gravity");
   return body;
-}
-
-Pose pose_of(const double *position, const double *quaternion, const double *velocity,
-             const double *angular_velocity)
-{
-  Pose pose;
-  pose.placed = true;
-  if (position) pose.shift = checked_vector(position, "position");
-  if (velocity) pose.velocity = checked_vector(velocity, "velocity");
-  if (angular_velocity) pose.angular = checked_vector(angular_velocity, "angular_velocity");
-  if (!quaternion) return pose;
-  for (std::size_t k = 0; k < 4; k++) checked_number(quaternion[k], element("quaternion", k));
-  try {
-    const BodyPose turned = pose_of_quaternion(pose.shift, quaternion);
-    for (int k = 0; k < 3; k++) pose.row[k] = turned.row[k];
-  } catch (const InputError &e) {
-    throw ApiError(LSDCD_ERROR_ARGUMENT, e.what());
-  }
-  return pose;
 }
 
 }    // namespace lsdcd

@@ -23,8 +23,5 @@ Servo servo_of(const lsdcd_servo *given, const std::string &field);
 BodySpec body_of(const lsdcd_rigid_body *given, const std::string &field, bool begins);
 // `field`: of the twelve numbers.
 Placement placement_of(const double *numbers, const std::string &field);
-// Null: the default of each.
-Pose pose_of(const double *position, const double *quaternion, const double *velocity,
-             const double *angular_velocity);
 
 }    // namespace lsdcd

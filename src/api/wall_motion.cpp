@@ -5,6 +5,7 @@
 #include "api/refusals.h"
 #include "api/wall_given.h"
 #include "api/wall_handle.h"
+#include "bodies/read_pose.h"
 #include "mesh/placement.h"
 
 #include <cstddef>
@@ -50,6 +51,26 @@ void check_is_body(const lsdcd_wall &wall, int mesh)
     throw ApiError(LSDCD_ERROR_ARGUMENT,
                    "mesh " + std::to_string(mesh) + ", '" + spec.name +
                        "', is not a body: say body ... when the wall is made");
+}
+
+// Null: the default of each.
+Pose pose_of(const double *position, const double *quaternion, const double *velocity,
+             const double *angular_velocity)
+{
+  Pose pose;
+  pose.placed = true;
+  if (position) pose.shift = checked_vector(position, "position");
+  if (velocity) pose.velocity = checked_vector(velocity, "velocity");
+  if (angular_velocity) pose.angular = checked_vector(angular_velocity, "angular_velocity");
+  if (!quaternion) return pose;
+  for (std::size_t k = 0; k < 4; k++) checked_number(quaternion[k], element("quaternion", k));
+  try {
+    const BodyPose turned = pose_of_quaternion(pose.shift, quaternion);
+    for (int k = 0; k < 3; k++) pose.row[k] = turned.row[k];
+  } catch (const InputError &e) {
+    throw ApiError(LSDCD_ERROR_ARGUMENT, e.what());
+  }
+  return pose;
 }
 
 }    // namespace

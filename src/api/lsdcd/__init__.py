@@ -41,9 +41,9 @@ from ._c import (_BodyFacts, _BodyOptions, _BodyState, _Broadcast, _Collision, _
 from ._shapes import (ShapeContacts as ShapeContacts, ShapeDistances as ShapeDistances, ShapeFacts as ShapeFacts,
                       shape_facts as shape_facts)
 from ._spec import (Law as Law, Motion as Motion, Placement as Placement, RigidBody as RigidBody, Servo as Servo,
-                    SubModel as SubModel, SubModelFacts as SubModelFacts, WallMesh as WallMesh, WallSpec as WallSpec,
-                    sub_models as sub_models)
+                    SubModel as SubModel, WallMesh as WallMesh, WallSpec as WallSpec)
 from ._spec import _motion_array
+from ._sub_models import SubModelFacts as SubModelFacts, sub_models as sub_models
 from ._words import Values as _Values
 
 __version__: str = _lib.lsdcd_version().decode()

@@ -12,40 +12,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._c import (DEVICES, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _flag, _instance, _instances, _Law, _lib, _list,
-                 _Materials, _Motion, _noted, _numbers, _Override, _Record, _RigidBody, _Servo, _sized, _Spec, _SubModel,
-                 _SubModelFacts, _text, _tuple, _TypeLaw, _WallMesh, _WallSpec)
+                 _Materials, _Motion, _noted, _numbers, _Override, _RigidBody, _Servo, _sized, _Spec, _SubModel, _text, _tuple, _TypeLaw,
+                 _WallMesh, _WallSpec)
+from ._sub_models import sub_models
 
 if TYPE_CHECKING:
     from . import Mesh
 
 _DERIVED = -1.0
 _OF_RESTITUTION = ("tsuji", "coeff_restitution")    # dampings whose number is e; that of others is eta
-
-
-class SubModelFacts(_Record):
-    """What lsdcd_sub_model_facts says of a formula of contact laws."""
-    field: str            # of lsdcd_law: "style", "normal", "tangential", ...
-    name: str
-    source: str           # what it is, and where its formula comes from
-    beside_style: bool    # may it stand beside a classic style, or is it one? Else it goes with Law.granular() alone
-    numbers: tuple[str, ...]              # their names
-    units: tuple[str, ...]                # "1": none
-    ranges: tuple[tuple[float, float], ...]
-    may_be_derived: tuple[bool, ...]      # where None is a number
-
-
-def sub_models() -> list[SubModelFacts]:
-    """All formulas that this library has."""
-    found: list[SubModelFacts] = []
-    facts = _sized(_SubModelFacts)
-    while _lib.lsdcd_sub_model_get_facts(len(found), ctypes.byref(facts)) == 0:
-        each = range(facts.n)
-        found.append(SubModelFacts(
-            field=facts.field.decode(), name=facts.name.decode(), source=facts.source.decode(),
-            beside_style=bool(facts.beside_style), numbers=tuple(facts.number[k].decode() for k in each),
-            units=tuple(facts.unit[k].decode() for k in each), ranges=tuple((facts.least[k], facts.most[k]) for k in each),
-            may_be_derived=tuple(bool(facts.may_be_derived[k]) for k in each)))
-    return found
 
 
 class SubModel:
