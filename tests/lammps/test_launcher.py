@@ -5,6 +5,7 @@
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 
@@ -12,7 +13,34 @@ import lmp
 import scene
 from facts import fact
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 SMALL = scene.CREATE + scene.forces("hooke 1e4 NULL 5 NULL 0.4 1") + "run 10\n"
+
+
+def keywords():
+    """The name of each keyword of the wall and its default, by the help."""
+    shown = subprocess.run([lmp.LMP, "-h"], env=lmp.environment(), text=True, stdout=subprocess.PIPE, check=True).stdout
+    lines = shown.split("\n  keywords\n")[1].split("\n\n")[0].splitlines()
+    return [re.fullmatch(r"  (\w+) .*?(?:default ([^;]*)|(required))\)", line).groups("") for line in lines]
+
+
+def test_page_has_the_keywords():
+    """The syntax, the default and the meaning of each keyword."""
+    page = (ROOT / "doc/fix_wall_lsdcd.rst").read_text(encoding="utf-8")
+    syntax, rest = page.split("Examples\n\"\"\"", 1)
+    body, defaults = rest.split("Default\n\"\"\"", 1)
+    pages = body + "".join((ROOT / "doc" / name).read_text(encoding="utf-8") for name in (
+        "moving_walls.rst", "bodies.rst", "contact_laws.rst", "wall_output.rst", "energy.md", "deforming_walls.md", "wear.md"))
+    values = dict(re.findall(r"([a-z_]+)\s=\s([^,]+)", " ".join(defaults.split("\n.. _")[0].split())))
+    for name, fallback, _ in keywords():
+        fact(f"{name}: the page has its syntax", re.search(rf"^ *\*?{name}\*? ", syntax, re.MULTILINE) or f"{name} file" in syntax)
+        fact(f"{name}: the pages have its meaning", re.search(rf"[*`]{name}\b", pages))
+        if fallback in ("", "none", "off") or fallback.startswith("the wall's"):
+            fact(f"{name}: the page has its default", name not in values or values[name] == fallback, values.get(name))
+        else:
+            usual = re.split(r":| beside| MB|[.]$", fallback)[0].strip()
+            fact(f"{name}: the page has its default", values.get(name, "").startswith(usual), (fallback, values.get(name)))
+    fact("the rest is off", "All other keywords are off." in defaults)
 
 
 def test_launcher(folder):

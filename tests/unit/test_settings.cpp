@@ -77,7 +77,19 @@ TEST(settings, placements_act_in_the_order_given)
 TEST(settings, choices_and_values_are_read)
 {
   EXPECT_EQ(with("grid auto").grid_length, 0);    // chosen by the grid
+  EXPECT_EQ(with("grid 0.5").grid_length, 0.5);
   EXPECT_EQ(with("rmax auto").rmax, 0);
+  EXPECT_EQ(with("rmax 0.75").rmax, 0.75);
+  EXPECT_EQ(with("nearest all").nearest, 0);
+  EXPECT_EQ(with("nearest 3").nearest, 3);
+  EXPECT_EQ(with("average 7").average_every, 7);
+  EXPECT_EQ(with("impacts 0.01").impact_speed, 0.01);
+  EXPECT_TRUE(!with("").each_contact && with("each_contact").each_contact);
+  EXPECT_TRUE(!with("").energy && with("energy").energy);
+  EXPECT_EQ(parse("granular hertz 1e5 3 tangential linear_nohistory 1 0.5 heat area 7 mesh a.stl "
+                  "temperature 300 energy friction_heat 0.25")
+                .friction_heat,
+            0.25);
   EXPECT_EQ(with("").memory_budget, StepGridSettings().memory_budget);
   EXPECT_EQ(with("memory 2").memory_budget, std::size_t(2) * 1024 * 1024);
   EXPECT_TRUE(!with("").contacts && with("contacts").contacts);
@@ -448,6 +460,10 @@ TEST(settings, fix_modify_reads_motions_or_none)
 TEST(settings, wear_is_volume_per_work)
 {
   const WallSpec archard = with("wear archard 0.003 1.5e9");
+  EXPECT_EQ(archard.wear_deform.every, 0);
+  const WallSpec recedes = with("wear finnie 1e-9 deform every 40 factor 2.5");
+  EXPECT_EQ(recedes.wear_deform.every, 40);
+  EXPECT_EQ(recedes.wear_deform.factor, 2.5);
   EXPECT_EQ(archard.wear.model, WearModel::archard);
   EXPECT_DOUBLE_EQ(archard.wear.per_work, 2e-12);
   const WallSpec finnie = with("wear finnie 4e-11");
