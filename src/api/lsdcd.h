@@ -43,7 +43,7 @@ extern "C" {
 
 enum {
   LSDCD_OK = 0,
-  LSDCD_ERROR_ARGUMENT = 1, /* a null pointer, a number or a struct that makes no sense */
+  LSDCD_ERROR_ARGUMENT = 1, /* a null pointer, words, a number or a struct that make no sense */
   LSDCD_ERROR_INPUT = 2,    /* a file, mesh or setting that cannot be used */
   LSDCD_ERROR_CUTOFF = 3,   /* a radius beyond the grid's cutoff */
   LSDCD_ERROR_SIDE = 4,     /* the side of a mesh that has none: open, not oriented, or with
@@ -150,8 +150,6 @@ typedef struct lsdcd_grid lsdcd_grid;
  * other face where the mesh is thinner. */
 enum { LSDCD_DOUBLE = 0, LSDCD_FLOAT = 1 };
 enum { LSDCD_CPU = 0, LSDCD_CUDA = 1 };
-/* Of a wall: LSDCD_CUDA in steps with so many spheres near it that a GPU is quicker, and where there is one; else LSDCD_CPU. */
-enum { LSDCD_AUTO = 2 };
 
 typedef struct lsdcd_grid_options {
   size_t size;       /* of this struct */
@@ -425,44 +423,11 @@ LSDCD_API void lsdcd_body_free(lsdcd_body *body);
 
 /* ---- contact laws --------------------------------------------------------------------------- */
 
-/* A number that is derived from others: kt of the classic styles from kn, gammat from gamman, kt of mindlin from E and
- * nu. lsdcd_sub_model_facts says of which numbers. */
-#define LSDCD_DERIVED (-1.0)
-
-/* A formula by its name, with its numbers in the order of its lsdcd_sub_model_facts; numbers that it does not have
- * are 0. `name` null: the default of its field. */
-typedef struct lsdcd_sub_model {
-  const char *name;
-  double numbers[8];
-} lsdcd_sub_model;
-
-/* The force between a sphere and a wall: a classic style, or a normal sub-model and what goes with it.
- *
- *   lsdcd_law law = {.size = sizeof law, .style = {"hooke/history", {1e5, 3e4, 50, LSDCD_DERIVED, 0.5, 1}}};
- *
- *   lsdcd_law law = {.size = sizeof law, .normal = {"hertz/material", {5e6, 0.5, 0.3}}, .damping = {"tsuji"},
- *                    .tangential = {"mindlin", {LSDCD_DERIVED, 1, 0.5}}, .rolling = {"sds", {1e4, 1, 0.1}}};
- *
- * Names, numbers and formulas are those of fix wall/lsdcd: kn kt gamman gammat xmu dampflag of a style, and so on.
- * They are in the caller's units: force/length, 1/time, ...; a pressure is a force/length^2. */
-typedef struct lsdcd_law {
-  size_t size; /* of this struct */
-  /* A classic style, "hooke/history"; null: there are a normal and a tangential sub-model. */
-  lsdcd_sub_model style;
-  lsdcd_sub_model normal, tangential; /* "hertz/material", "mindlin"; null: there is a style */
-  lsdcd_sub_model damping;            /* beside normal: "tsuji"; null: viscoelastic */
-  lsdcd_sub_model rolling;            /* beside normal or a style: "epsd2"; null: none */
-  lsdcd_sub_model twisting;           /* beside normal: "marshall"; null: none */
-  lsdcd_sub_model heat; /* beside normal: "radius", and spheres have a temperature; null: none */
-  lsdcd_sub_model cohesion; /* beside normal or a style: "sjkr"; null: none */
-  /* 1: damping never pulls at a sphere that leaves. The value in the law of a wall holds for all of its meshes. */
-  int limit_damping;
-} lsdcd_law;
-
-/* The facts of a sub-model. Texts live as long as the library. */
+/* The facts of a sub-model, a formula of contact laws that words name: "hooke/history", or "tangential mindlin" behind a normal one. Numbers stand in
+ * their order behind its name, in the caller's units: force/length, 1/time, ...; a pressure is a force/length^2. Texts live as long as the library. */
 typedef struct lsdcd_sub_model_facts {
   size_t size;        /* of this struct; set by the caller */
-  const char *field;  /* of lsdcd_law: "style", "normal", ... */
+  const char *family; /* "style", "normal", or the word in front of its name: "tangential" */
   const char *name;   /* "mindlin" */
   const char *source; /* one line: what it is, and where its formula comes from */
   int beside_style; /* 1: it may stand beside a classic style or is one; 0: beside a normal sub-model alone */
@@ -470,43 +435,15 @@ typedef struct lsdcd_sub_model_facts {
   const char *number[8];    /* its name: "kt" */
   const char *unit[8];      /* "force/length^2"; "1": none */
   double least[8], most[8]; /* its range */
-  int may_be_derived[8];    /* 1: it may be LSDCD_DERIVED */
+  int may_be_derived[8];    /* 1: it may be NULL, and is derived from others */
 } lsdcd_sub_model_facts;
 /* The facts of sub-model number k, from 0, of all that this library has; LSDCD_ERROR_ARGUMENT: there are not so many. Any. */
 LSDCD_API int lsdcd_sub_model_get_facts(size_t k, lsdcd_sub_model_facts *facts);
 
-/* A number in place of the file's, in the caller's units. */
-typedef struct lsdcd_override {
-  /* The material that has the number; null: both together, or the one that lacks it in the file. */
-  const char *of;
-  /* "youngs_modulus", "restitution", ...; "eta" is the number of a damping without restitution. */
-  const char *key;
-  double value;
-} lsdcd_override;
-
-/* Two materials of a file, as lsdcd material and `granular material` of a script take them. */
-typedef struct lsdcd_materials {
-  size_t size;                 /* of this struct */
-  const char *file;            /* its path, or the name of one that is installed: "steel.lsdcd" */
-  const char *particle, *wall; /* names in the file; wall null: that of the particles */
-  const lsdcd_override *overrides; /* n_overrides of them */
-  size_t n_overrides;
-  const char *units; /* of the law's numbers: "si", "cgs", "micro" or "nano"; null: "si" */
-} lsdcd_materials;
-
-/* Fills a law with the numbers of two materials, the bits of a script. `law` says which sub-models there are:
- * normal.name is "jkr", "dmt", or null for "hertz/material", without numbers; of others that are named, LSDCD_DERIVED is a
- * number of the materials where the file has such a property. Without names, damping is by the restitution and the
- * tangential sub-model "mindlin". `report`: becomes a text of each number and its source, until this thread's next
- * such call; null: not asked for. LSDCD_ERROR_INPUT names the file, and what it lacks. Any. */
-LSDCD_API int lsdcd_law_from_material(const lsdcd_materials *materials, lsdcd_law *law,
-                                      const char **report);
-
 /* ---- walls ---------------------------------------------------------------------------------- */
 
 /* The wall of fix wall/lsdcd, for any program that moves spheres: every contact law, meshes that move,
- * servos, wear, files. Units are any that are consistent. Spheres are counted from 0, meshes too.
- * lsdcd_wall_from_spec() makes one of meshes and laws. */
+ * servos, wear, files. Units are any that are consistent. Spheres are counted from 0, meshes too. */
 typedef struct lsdcd_wall lsdcd_wall;
 
 /* A message of a wall: a line for the log, or with `warning` 1 what is probably not meant. It may call any function but
@@ -514,7 +451,7 @@ typedef struct lsdcd_wall lsdcd_wall;
  * text, though all is done; a wall is not made. */
 typedef void lsdcd_message(void *data, int warning, const char *text);
 
-/* For a program of several processes, as with MPI. Each has a wall of the same spec, for spheres of its own,
+/* For a program of several processes, as with MPI. Each has a wall of the same words, for spheres of its own,
  * and all call the functions of the wall together, in the same order, but for those that say "alone". All
  * processes then fail together, too, but for out of memory and errors of CUDA: end all of them there.
  * A callback is called by all processes in the calls of their walls, and calls nothing with the wall; it changes the
@@ -548,187 +485,9 @@ typedef struct lsdcd_wall_options {
    * wall. */
   void *stream;
   int device;
-  /* Of a wall by words: those of numbers from files of materials, "si", "cgs", "micro" or "nano"; null: "si". */
+  /* Those of numbers from files of materials, "si", "cgs", "micro" or "nano"; null: "si". */
   const char *units;
 } lsdcd_wall_options;
-
-/* Laws of atom types with a mesh. In an array all elements have the same size. */
-typedef struct lsdcd_type_law {
-  size_t size;               /* of this struct */
-  int first_type, last_type; /* of lsdcd_spheres, from 1; last_type 0: all from first_type on */
-  const lsdcd_law *law;
-} lsdcd_type_law;
-
-/* Motions of the time since the wall was made or lsdcd_wall_set_motion() was called. */
-enum {
-  LSDCD_LINEAR = 0,   /* x + V t */
-  LSDCD_WIGGLE = 1,   /* x + A sin(2 pi t/period) */
-  LSDCD_COSINE = 2,   /* x + A (1 - cos(2 pi t/period)), which begins at rest */
-  LSDCD_ROTATE = 3,   /* about an axis, right-handed, once in a period */
-  LSDCD_TRANSROT = 4, /* LSDCD_ROTATE, and then x + V t */
-  LSDCD_RIGGLE = 5,   /* about an axis, by the angle `angle` sin(2 pi t/period) */
-  LSDCD_TABLE = 6     /* a curve through rows of places at times */
-};
-/* A member that a kind does not use is 0. In an array all elements have the same size. */
-typedef struct lsdcd_motion {
-  size_t size; /* of this struct */
-  int kind;
-  double velocity[3];  /* V, length/time: LSDCD_LINEAR, LSDCD_TRANSROT */
-  double amplitude[3]; /* A, length: LSDCD_WIGGLE, LSDCD_COSINE */
-  double point[3];     /* length; the axis passes through it. LSDCD_TABLE turns about it */
-  double axis[3];      /* of any length above 0: all that turn; LSDCD_TABLE with an angle */
-  double period;       /* time > 0: all but LSDCD_LINEAR and LSDCD_TABLE */
-  double angle;        /* radians: LSDCD_RIGGLE */
-  /* Of LSDCD_TABLE. n_rows rows, of `columns` numbers each, one behind the other: a time, and then with 2 columns an
-   * angle about the axis, with 4 a displacement x y z, with 5 both, with 7 a displacement and a rotation vector, with 8
-   * a displacement and a quaternion w x y z. Times ascend, angles are radians. x goes to R (x - point) + point +
-   * displacement; before the first row and from the last one on it rests there. Copied. */
-  const double *rows;
-  size_t n_rows;
-  int columns;
-  int straight; /* 1: straight between rows, at constant velocities; 0: a cubic spline */
-  int repeats;  /* 1: the last row, the first one but for whole turns, begins the next period */
-  int degrees;  /* 1: its angles and rotation vectors are degrees */
-  /* A text file of such rows, in place of rows, n_rows and columns: numbers between blanks or commas, # begins a comment. An axis
-   * says that its rows have an angle about it. The first process reads it. Null: none. */
-  const char *file;
-} lsdcd_motion;
-
-/* Moves a mesh along an axis, or turns it about one, so that it pushes the spheres with a force, or a torque. */
-typedef struct lsdcd_servo {
-  size_t size;      /* of this struct */
-  int turns;        /* 0: force, length and velocity; 1: torque, angle and angular velocity */
-  double axis[3];   /* of any length above 0 */
-  double point[3];  /* length; the axis passes through it, where it turns */
-  double target;    /* on the spheres, along or about the axis */
-  double max_speed; /* > 0 */
-  double max_gain;  /* speed per push > 0; 0: the largest that is stable */
-  double lo, hi;    /* limits of the position, lo <= 0 <= hi; both 0: none */
-} lsdcd_servo;
-
-/* How a rigid body is held. */
-enum {
-  LSDCD_FREE = 0,   /* it moves and turns */
-  LSDCD_HINGE = 1,  /* it turns about an axis; its coordinate is an angle, right-handed */
-  LSDCD_SLIDER = 2, /* it moves along an axis and does not turn; its coordinate is a length */
-  LSDCD_PLANAR = 3, /* its centre stays in a plane, and it turns about the normal */
-  LSDCD_BALL = 4    /* it turns about a point */
-};
-/* A mesh as a rigid body, which moves by what acts on it: spheres, gravity, and what is given here. It begins where the
- * placement has the mesh, and its coordinate is 0 there. Vectors are along the axes of the box. */
-typedef struct lsdcd_rigid_body {
-  size_t size;      /* of this struct */
-  double density;   /* mass/length^3 > 0 of a closed mesh; 0: the next three say what it has */
-  double mass;      /* > 0 */
-  double centre[3]; /* of mass, length */
-  double inertia
-      [6]; /* about the centre, mass length^2: xx yy zz xy xz yz; xy is minus the integral of x y */
-  int joint;       /* LSDCD_FREE to LSDCD_BALL */
-  double point[3]; /* length: of LSDCD_HINGE and LSDCD_BALL */
-  double axis
-      [3]; /* of any length above 0: of LSDCD_HINGE and LSDCD_SLIDER; the normal of LSDCD_PLANAR */
-  /* Of LSDCD_HINGE and LSDCD_SLIDER. stiffness: torque (per radian), or force/length, >= 0; damping: torque time, or
-   * force/velocity, >= 0; rest: coordinate where the spring is slack; lo <= 0 <= hi: stops, both 0: none; motor: torque
-   * about, or force along, the axis. */
-  double stiffness, damping, rest, lo, hi, motor;
-  double load[3], moment[3];               /* force at the centre of mass; torque */
-  double velocity[3], angular_velocity[3]; /* at the start, of the centre: length/time, 1/time */
-  double gravity[3];                       /* length/time^2 */
-  /* 1: points of its surface feel the other meshes of the wall. How far they are apart at most, and their radius:
-   * lengths > 0; 0: chosen. */
-  int coat;
-  double coat_spacing, coat_radius;
-} lsdcd_rigid_body;
-
-/* A mesh of a wall. In an array all elements have the same size. */
-typedef struct lsdcd_wall_mesh {
-  size_t size;            /* of this struct */
-  const lsdcd_mesh *mesh; /* shared: it may be in other walls, and be freed before them */
-  const char *name;       /* what messages call it; null: "mesh K", K from 1 */
-  /* Rows of M, each with its t, a length, behind it: a corner x of the mesh is at M x + t. M may scale and mirror; all
-   * 0: as the mesh is. lsdcd_place_scale() and its neighbours make it. */
-  double placement[12];
-  const lsdcd_law *law; /* the wall's sub-models with other numbers; null: the wall's law */
-  const lsdcd_type_law *type_laws; /* of two with a type the last one is its law; null: none */
-  size_t n_type_laws;
-  int posed_by_caller;         /* 1: lsdcd_wall_set_pose() moves it, and nothing else */
-  const lsdcd_motion *motions; /* each acts on what the earlier ones placed; null: it rests */
-  size_t n_motions;
-  const lsdcd_servo *servo; /* null: none */
-  /* length/time, 1/time and a point of the axis: the surface moves along itself while the mesh rests, as that of a belt
-   * or a roll. */
-  double surface_velocity[3], surface_angular_velocity[3], surface_centre[3];
-  double temperature;     /* where the law has heat */
-  double torque_about[3]; /* length: what the torque of lsdcd_wall_totals is about */
-  int torque_about_moves; /* 1: that point moves with the mesh */
-  double wear_factor;     /* it wears so many times as fast; 0: once, -1: not at all */
-  const char *cache;      /* file that stores its grid; null: none */
-  /* Files that are written every so many steps, with a '*' for the step in each one's name; null: none. `fields`,
-   * .vtp: stress, contacts and wear of each triangle, with `energy` what is dissipated there, with `impact_speed` impacts, for
-   * ParaView. `stl`: the mesh where it is. `spectrum`, .csv, with `impact_speed`: see lsdcd_wall_impacts. None may be one
-   * that a mesh was read from. */
-  const char *fields, *stl, *spectrum;
-  int fields_every, stl_every, spectrum_every;
-  int nodes_by_caller; /* 1: lsdcd_wall_set_nodes() moves each of its vertices, and nothing else moves it. Exact, in
-                          double precision */
-  double
-      pressure; /* force/area, with nodes_by_caller: pushes to where normals point by the winding, out of a closed
-                          mesh; see lsdcd_wall_get_node_forces() */
-  const lsdcd_rigid_body
-      *body; /* null: it is none. Else without motions, servo and posed_by_caller */
-} lsdcd_wall_mesh;
-
-/* scale: factors, none 0; rotate: degrees about an axis through the origin, right-handed; move: lengths. Each acts on
- * the result of those before it; a placement of zeros is that of a mesh as it is. LSDCD_ERROR_INPUT: an infinite number,
- * or a 0 where none may be. Any. */
-LSDCD_API int lsdcd_place_scale(double *placement, double x, double y, double z);
-LSDCD_API int lsdcd_place_rotate(double *placement, const double *axis, double degrees);
-LSDCD_API int lsdcd_place_move(double *placement, double x, double y, double z);
-
-/* Contacts of one sphere at a corner share their overlap, or their forces add. */
-enum { LSDCD_BLEND = 0, LSDCD_SUM = 1 };
-/* Where spheres belong; one side needs closed meshes whose triangles are wound alike. */
-enum { LSDCD_BOTH_SIDES = 0, LSDCD_INSIDE = 1, LSDCD_OUTSIDE = 2 };
-/* Volume that comes off: K F s / H, or by angle and energy of impacts. */
-enum { LSDCD_NO_WEAR = 0, LSDCD_ARCHARD = 1, LSDCD_FINNIE = 2 };
-
-typedef struct lsdcd_wall_spec {
-  size_t size;                   /* of this struct */
-  const lsdcd_law *law;          /* of all meshes that have none */
-  const lsdcd_wall_mesh *meshes; /* n_meshes of them, 1 at least */
-  size_t n_meshes;
-  int corner, side; /* see above */
-  int nearest;      /* as in lsdcd_grid_options, 0: exact */
-  double cell;      /* likewise, length; 0: chosen */
-  double memory;    /* likewise, bytes, of each mesh; 0: chosen */
-  double rmax;      /* the largest radius that there will be; 0: that of the spheres */
-  /* Where forces are computed for spheres in arrays of the host: LSDCD_CPU, or LSDCD_CUDA, with copies in each step, or
-   * LSDCD_AUTO. Of arrays on a device it is LSDCD_CPU: they are computed there. */
-  int device;
-  int wear;                /* LSDCD_NO_WEAR, LSDCD_ARCHARD or LSDCD_FINNIE */
-  double wear_coefficient; /* K; of LSDCD_FINNIE 1/pressure */
-  double hardness;         /* H > 0 of LSDCD_ARCHARD, pressure */
-  /* Every so many steps the vertices of meshes that wear go away from the spheres, by a volume of wear_deform_factor times
-   * what has worn; 0: they stay, and a factor of 0 is 1. lsdcd_wall_get_nodes() tells where they are. */
-  int wear_deform_every;
-  double wear_deform_factor;
-  int periodic_ends; /* 1: meshes are meant to end at periodic faces, where they continue */
-  int brief;         /* 1: the log has one line */
-  /* Steps of each mean of force and torque in lsdcd_wall_totals, as a solver of a fluid samples them; 0: there are none */
-  int average_every;
-  int each_contact; /* 1: lsdcd_wall_get_contacts() will be called */
-  int energy;       /* 1: what contacts dissipate is booked, by cause */
-  /* The share of the heat of friction that goes into the spheres, 0 to 1, as `heat` of lsdcd_spheres; with `energy` and the
-   * sub-model heat */
-  double friction_heat;
-  /* Impacts that are faster are recorded, length/time, with the speed along the normal; 0: none are. Not with shapes */
-  double impact_speed;
-  int shapes; /* 1: grains may be no spheres: steps read half_axes to inertia of lsdcd_spheres. On a CPU */
-} lsdcd_wall_spec;
-/* `options` may be null: all defaults. All that the structs point to is copied or shared. LSDCD_ERROR_ARGUMENT names
- * the field that makes no sense, its value and what to give. Any. */
-LSDCD_API int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *options,
-                                   lsdcd_wall **wall);
 
 /* A value of the program, which words name as $NAME. Numbers stand for as many words, with all digits; NaN is NULL. */
 enum { LSDCD_VALUE_NUMBERS = 0, LSDCD_VALUE_MESH = 1, LSDCD_VALUE_ROWS = 2, LSDCD_VALUE_TEXT = 3 };
@@ -844,12 +603,12 @@ typedef struct lsdcd_wall_totals {
   double worn_volume;         /* worn off so far */
   double power; /* of the mesh on the spheres, by its motion; of nodes half a step before */
   double servo_position, servo_velocity, servo_push; /* 0 without a servo */
-  /* With wear_deform_every, volumes times wear_deform_factor: by which wear has moved the mesh so far, and what has worn
+  /* With `wear ... deform`, volumes times its factor: by which wear has moved the mesh so far, and what has worn
    * at vertices that stay, as a triangle would fold over or meet another part of the mesh. */
   double removed_volume, held_back_volume;
-  /* On a mesh with nodes_by_caller, which none of its nodes gets: the torque is that of their forces. */
+  /* On a mesh with `nodes caller`, which none of its nodes gets: the torque is that of their forces. */
   double couple[3];
-  /* With average_every, means over the last so many steps that ended with one whose number divides by it, counted from
+  /* With `average N`, means over the last N steps that ended with one whose number divides by N, counted from
    * the first step of the wall; weighted by time. 0 before, and without it. */
   double mean_force[3], mean_torque[3]; /* the torque about `torque_about` of each mesh */
   /* With `energy`; else 0. By cause: damping, slider, rolling, twisting, adhesion. Power in the last step, and energy since
@@ -860,10 +619,10 @@ typedef struct lsdcd_wall_totals {
   /* Work of spheres and mesh on their contacts, of the mesh on the spheres, what contacts hold, and the remainder: contact_work less
    * all that is held or lost. */
   double contact_work, drive_work, held_energy, remainder;
-  /* With impact_speed: the number of impacts since the first step, and their energy, the sum of m v^2/2 with the speed along the
+  /* With `impacts`: the number of impacts since the first step, and their energy, the sum of m v^2/2 with the speed along the
    * normal, and with a body's mobility in m. */
   double impacts, impact_energy;
-  /* With `energy` and wear_deform_every: energy that contacts lose as wear moves the mesh. */
+  /* With `energy` and `wear ... deform`: energy that contacts lose as wear moves the mesh. */
   double lost_wear;
   double elastic_energy; /* of overlaps and tangential springs, by the forces of the last step */
 } lsdcd_wall_totals;
@@ -882,7 +641,7 @@ LSDCD_API int lsdcd_output_info(size_t k, const char **name, const char **unit, 
 /* Where a mesh is after the last step: what was at x when the wall was made is at R x + t. 12 numbers, rows of R, each
  * with its t, a length, behind it. LSDCD_ERROR_ARGUMENT: no such mesh. Alone. Own. */
 LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);
-/* Where a mesh with `posed_by_caller` is in the next step and those after it: what was at x when the wall was made is at
+/* Where a mesh with `motion caller` is in the next step and those after it: what was at x when the wall was made is at
  * R x + position, and moves with velocity + angular_velocity x (R x). Velocities count in damping and friction, and
  * in the power of lsdcd_wall_totals. Until the first call the mesh is as its placement has it, at rest.
  *
@@ -895,7 +654,7 @@ LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);
 LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *position,
                                   const double *quaternion, const double *velocity,
                                   const double *angular_velocity);
-/* Where the vertices of a mesh with `nodes_by_caller` are in the next step and those after it, and how fast they go, in
+/* Where the vertices of a mesh with `nodes caller` are in the next step and those after it, and how fast they go, in
  * the box: 3 numbers each, in the order of the caller's vertices: those of lsdcd_mesh_from_faces() or of an OBJ, PLY or OFF file; of
  * STL files and of corners the corners, three a triangle; of a mesh that words name by its file the vertices of the welded mesh. There are `given_vertices` of lsdcd_mesh_facts. Of several that were
  * welded to one the first counts, and the others are where it is; one of no triangle is not read. Between the three nodes of a triangle places and velocities are linear. Until the first call they are as the
@@ -904,12 +663,12 @@ LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *posi
  * positions: length. velocities: length/time, of the time of the spheres' velocities: with velocity Verlet half a step
  * before the positions (lsdcd_wall_step); null: all are 0. Both are copied, and are the same on all processes. A wall with device LSDCD_CUDA
  * takes them from memory of its GPU, too, in the order of its stream (LSDCD_ERROR_DEVICE: of another one); with a single process
- * the host then waits for none of these numbers. LSDCD_ERROR_ARGUMENT: no such mesh, one without nodes_by_caller, a number that is not
+ * the host then waits for none of these numbers. LSDCD_ERROR_ARGUMENT: no such mesh, one without `nodes caller`, a number that is not
  * finite, which on a GPU the next step may tell instead (LSDCD_ERROR_INPUT), arrays in different memory. All contacts are found however far nodes go from the last step's, but for one that passes through a sphere: the
  * next step refuses (LSDCD_ERROR_INPUT) a node that goes farther than the largest radius, and a triangle without area. Alone. Own. */
 LSDCD_API int lsdcd_wall_set_nodes(lsdcd_wall *wall, int mesh, const double *positions,
                                    const double *velocities);
-/* How many vertices the caller has, of a mesh with `nodes_by_caller` or one that wear moves (wear_deform_every). LSDCD_ERROR_ARGUMENT: no
+/* How many vertices the caller has, of a mesh with `nodes caller` or one that wear moves (`wear ... deform`). LSDCD_ERROR_ARGUMENT: no
  * such mesh, another one. Alone. Own. */
 LSDCD_API int lsdcd_wall_get_node_count(lsdcd_wall *wall, int mesh, size_t *count);
 /* Where the vertices of such a mesh are after the last step, in the box, 3 numbers a vertex (length), to memory and in the order
@@ -940,7 +699,7 @@ typedef struct lsdcd_wall_contacts {
   int *
       has_ended; /* 1: the sphere touched there in the step before, and no more; `point` is where it was */
 } lsdcd_wall_contacts;
-/* Of a wall with each_contact. Of a sphere in several they come one after the other. LSDCD_ERROR_ARGUMENT also before the
+/* Of a wall with `each_contact`. Of a sphere in several they come one after the other. LSDCD_ERROR_ARGUMENT also before the
  * first step after lsdcd_wall_restore(), as saved numbers have none. Own. */
 LSDCD_API int lsdcd_wall_get_contacts(lsdcd_wall *wall, lsdcd_wall_contacts *contacts);
 /* The spectrum of the impacts on a mesh since the first step, over all processes: bins of the energy of an impact, of which each begins
@@ -954,14 +713,8 @@ typedef struct lsdcd_wall_impacts {
   double *energy;        /* the sum of their energies */
   size_t bins;           /* answer: all there are; with less room no array is written */
 } lsdcd_wall_impacts;
-/* Of a wall with impact_speed. LSDCD_ERROR_ARGUMENT: of another one, or no such mesh. Own. */
+/* Of a wall with `impacts`. LSDCD_ERROR_ARGUMENT: of another one, or no such mesh. Own. */
 LSDCD_API int lsdcd_wall_get_impacts(lsdcd_wall *wall, int mesh, lsdcd_wall_impacts *impacts);
-/* Other motions for a mesh, from where it is; n 0: it stops there. Not of one with `posed_by_caller`. Own. */
-LSDCD_API int lsdcd_wall_set_motion(lsdcd_wall *wall, int mesh, const lsdcd_motion *motions,
-                                    size_t n);
-/* Another servo, from where the mesh is; null: none. Along the same line its position goes on. Own. */
-LSDCD_API int lsdcd_wall_set_servo(lsdcd_wall *wall, int mesh, const lsdcd_servo *servo);
-
 /* A rigid body after the last step, with velocities of the whole step. Vectors are along the axes of the box. */
 typedef struct lsdcd_body_state {
   size_t size;                             /* of this struct */
@@ -971,7 +724,7 @@ typedef struct lsdcd_body_state {
   /* What the joint does to the body to hold it, without spring, damping, motor and stops; the torque is about its point,
    * or the centre of mass where it has none. */
   double reaction_force[3], reaction_torque[3];
-  double coordinate; /* of LSDCD_HINGE (radians) and LSDCD_SLIDER (length); else 0 */
+  double coordinate; /* of a hinge (radians) and a slider (length); else 0 */
   double energy;     /* kinetic, and of its spring */
   /* Of a stop along (about) the axis: what holds the body there, and in the step in which it comes there mass (moment of
    * inertia) times speed over the timestep. */
@@ -979,21 +732,15 @@ typedef struct lsdcd_body_state {
 } lsdcd_body_state;
 /* LSDCD_ERROR_ARGUMENT: no such mesh, or one that is no body. Own. */
 LSDCD_API int lsdcd_wall_get_body(lsdcd_wall *wall, int mesh, lsdcd_body_state *state);
-/* Joint, point, axis, spring, stops, motor, load, moment and gravity of a body from now on, from where it is and without
- * a jump. With another joint its coordinate begins at 0 there, and what the joint allows of its velocity goes on. Mass,
- * velocities and coat of `body` are not looked at. lo and hi hold the coordinate. LSDCD_ERROR_ARGUMENT: as above.
- * Own. */
-LSDCD_API int lsdcd_wall_set_body(lsdcd_wall *wall, int mesh, const lsdcd_rigid_body *body);
-
 /* All that the wall and the contacts of its spheres keep, to go on from: *count doubles, of this process. Those
  * that fit in `room` are written; with `room` 0 the array may be null. Own. */
 LSDCD_API int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count);
-/* Into a wall of the same spec, before its first step, whose spheres then have the same order; process by
+/* Into a wall of the same words, before its first step, whose spheres then have the same order; process by
  * process. Steps count on from the last one of that wall, for files and wear that come every so many steps. All goes on as if that wall
  * did, bit for bit on as many processes, but for the last digits of the worn volume in totals; lsdcd_wall_save() writes the same numbers again. Totals, poses, bodies, nodes and forces on these are those of its last step; a
- * pose and nodes that were set for the next one are set. Numbers of a wall that differs in a field on which a number hangs are refused with what differs (LSDCD_ERROR_ARGUMENT), and
- * the wall stays as it is. These are all but names and files, `device`, `brief`, `each_contact`, `periodic_ends`, `stl_every`, without `nearest` also
- * `cell`, `memory` and `rmax`, and of lsdcd_wall_options all but the corners of periodic axes. A motion, servo or body that
+ * pose and nodes that were set for the next one are set. Numbers of a wall that differs in a word on which a number hangs are refused with what differs (LSDCD_ERROR_ARGUMENT), and
+ * the wall stays as it is. These are all but names and files, `device`, `log`, `each_contact`, `periodic`, the steps of `mesh_stl`, without `nearest` also
+ * `grid`, `memory` and `rmax`, and of lsdcd_wall_options all but the corners of periodic axes. A motion, servo or body that
  * was set later is set before; inputs get their values again for the next step. Own. */
 LSDCD_API int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count);
 /* Takes from numbers of another wall what fits this one; what does not, `show` tells. Else as lsdcd_wall_restore(). Own. */

@@ -8,16 +8,13 @@
 
 #include "lsdcd.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <exception>
 #include <functional>
 #include <initializer_list>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -621,60 +618,6 @@ class Body {
 
 // ---- walls -----------------------------------------------------------------------------------
 
-// A number that is derived from others, see LSDCD_DERIVED.
-constexpr double kDerived = LSDCD_DERIVED;
-
-// A formula by its name, with its numbers in the order of its lsdcd_sub_model_facts.
-struct SubModel {
-  std::string name;    // empty: the default of its field
-  std::vector<double> numbers;
-
-  SubModel() = default;
-  SubModel(std::string name, std::vector<double> numbers = {}) :
-      name(std::move(name)), numbers(std::move(numbers))
-  {
-  }
-};
-
-// Two materials of a file, see lsdcd_materials.
-struct Materials {
-  // A number in place of the file's. `of`: the material where it is of one, else empty.
-  struct Override {
-    std::string of, key;
-    double value;
-  };
-
-  std::string file, particle, wall;    // wall empty: the material of the particles
-  std::vector<Override> overrides;
-  std::string units = "si";    // of the law's numbers
-};
-
-// The force between a sphere and a wall; fields as in lsdcd_law.
-struct Law {
-  SubModel style, normal, tangential, damping, rolling, twisting, heat, cohesion;
-  bool limit_damping = false;
-
-  // hooke, hooke/history or hertz/history, by kn kt gamman gammat xmu dampflag.
-  static Law classic(SubModel style)
-  {
-    Law law;
-    law.style = std::move(style);
-    return law;
-  }
-  // A normal and a tangential sub-model; the others may be set after it.
-  static Law granular(SubModel normal, SubModel tangential)
-  {
-    Law law;
-    law.normal = std::move(normal);
-    law.tangential = std::move(tangential);
-    return law;
-  }
-  // With the numbers of two materials. `with`: its sub-models, the normal one without numbers; kDerived is a number
-  // of the materials, as lsdcd_law_from_material() says. `report`: becomes a text of each number and its source.
-  static Law from_material(const Materials &materials, Law with, std::string *report = nullptr);
-  static Law from_material(const Materials &materials, std::string *report = nullptr);
-};
-
 // Where a mesh is and how it moves, as lsdcd_wall_set_pose() takes it.
 struct Pose {
   std::array<double, 3> position = {0, 0, 0};            // length
@@ -683,412 +626,7 @@ struct Pose {
   std::array<double, 3> angular_velocity = {0, 0, 0};    // along the axes of the box, 1/time
 };
 
-// x -> M x + t, in the order of the calls: Placement().scale(0.001).rotate({0, 0, 1}, 90).move(0, 0, 1)
-class Placement {
- public:
-  Placement &scale(double factor) { return scale(factor, factor, factor); }
-  Placement &scale(double x, double y, double z)
-  {
-    c::check(lsdcd_place_scale(numbers_.data(), x, y, z));
-    return *this;
-  }
-  // Degrees about an axis through the origin, right-handed.
-  Placement &rotate(const std::array<double, 3> &axis, double degrees)
-  {
-    c::check(lsdcd_place_rotate(numbers_.data(), axis.data(), degrees));
-    return *this;
-  }
-  Placement &move(double x, double y, double z)
-  {
-    c::check(lsdcd_place_move(numbers_.data(), x, y, z));
-    return *this;
-  }
-  // Rows of M, each with its t behind it; all 0: as the mesh is.
-  const std::array<double, 12> &numbers() const { return numbers_; }
-
- private:
-  std::array<double, 12> numbers_ = {};
-};
-
-// A motion of the time since the wall was made or Wall::set_motion() was called.
-struct Motion : lsdcd_motion {
-  Motion() : lsdcd_motion() { size = sizeof(lsdcd_motion); }
-
-  static Motion linear(const std::array<double, 3> &velocity)
-  {
-    return made(LSDCD_LINEAR, velocity, {}, {}, {}, 0);
-  }
-  static Motion wiggle(const std::array<double, 3> &amplitude, double period)
-  {
-    return made(LSDCD_WIGGLE, {}, amplitude, {}, {}, period);
-  }
-  static Motion cosine(const std::array<double, 3> &amplitude, double period)
-  {
-    return made(LSDCD_COSINE, {}, amplitude, {}, {}, period);
-  }
-  static Motion rotate(const std::array<double, 3> &point, const std::array<double, 3> &axis,
-                       double period)
-  {
-    return made(LSDCD_ROTATE, {}, {}, point, axis, period);
-  }
-  static Motion transrot(const std::array<double, 3> &velocity, const std::array<double, 3> &point,
-                         const std::array<double, 3> &axis, double period)
-  {
-    return made(LSDCD_TRANSROT, velocity, {}, point, axis, period);
-  }
-  // To and fro, by `angle` sin(2 pi t/period), radians.
-  static Motion riggle(const std::array<double, 3> &point, const std::array<double, 3> &axis,
-                       double angle, double period)
-  {
-    Motion m = made(LSDCD_RIGGLE, {}, {}, point, axis, period);
-    m.angle = angle;
-    return m;
-  }
-  // A curve through rows of a time, a displacement and a rotation: see lsdcd_motion, of which `straight` and `repeats`
-  // may be set. `rows` must live until the wall is made or set_motion() was called. Rows with an angle need an axis.
-  static Motion table(const std::vector<double> &rows, int columns,
-                      const std::array<double, 3> &point = {0, 0, 0},
-                      const std::array<double, 3> &axis = {0, 0, 0})
-  {
-    Motion m = made(LSDCD_TABLE, {}, {}, point, axis, 0);
-    if (columns < 1 || rows.size() % static_cast<std::size_t>(columns) != 0)
-      throw Error(LSDCD_ERROR_ARGUMENT, "Motion::table: " + std::to_string(rows.size()) +
-                                            " numbers are no rows of " + std::to_string(columns));
-    m.rows = rows.data();
-    m.n_rows = rows.size() / static_cast<std::size_t>(columns);
-    m.columns = columns;
-    return m;
-  }
-  // Such rows of a text file, see lsdcd_motion; with an axis where rows have an angle about it. `file` must live as long as `rows`.
-  static Motion table(const std::string &file, const std::array<double, 3> &point = {0, 0, 0},
-                      const std::array<double, 3> &axis = {0, 0, 0})
-  {
-    Motion m = made(LSDCD_TABLE, {}, {}, point, axis, 0);
-    m.file = file.c_str();
-    return m;
-  }
-  static Motion table(const std::string &&, const std::array<double, 3> & = {0, 0, 0},
-                      const std::array<double, 3> & = {0, 0, 0}) = delete;
-  static Motion table(std::vector<double> &&, int, const std::array<double, 3> & = {0, 0, 0},
-                      const std::array<double, 3> & = {0, 0, 0}) = delete;
-
- private:
-  using Three = std::array<double, 3>;
-  static Motion made(int kind, const Three &v, const Three &a, const Three &p, const Three &axis,
-                     double period)
-  {
-    Motion m;
-    m.kind = kind;
-    for (std::size_t k = 0; k < 3; k++) {
-      m.velocity[k] = v[k];
-      m.amplitude[k] = a[k];
-      m.point[k] = p[k];
-      m.axis[k] = axis[k];
-    }
-    m.period = period;
-    return m;
-  }
-};
-
-// All that is 0 has its default.
-struct Servo : lsdcd_servo {
-  Servo() : lsdcd_servo() { size = sizeof(lsdcd_servo); }
-};
-
-// A mesh as a rigid body. All that is 0 has its default: free, at rest, without gravity and coat.
-struct RigidBody : lsdcd_rigid_body {
-  // For a closed mesh.
-  explicit RigidBody(double density) : lsdcd_rigid_body()
-  {
-    size = sizeof(lsdcd_rigid_body);
-    this->density = density;
-  }
-  // `inertia`: about the centre, xx yy zz xy xz yz.
-  RigidBody(double mass, const std::array<double, 3> &centre,
-            const std::array<double, 6> &inertia) :
-      RigidBody(0)
-  {
-    this->mass = mass;
-    std::copy(centre.begin(), centre.end(), this->centre);
-    std::copy(inertia.begin(), inertia.end(), this->inertia);
-  }
-  RigidBody &hinge(const std::array<double, 3> &point, const std::array<double, 3> &axis)
-  {
-    return held(LSDCD_HINGE, point, axis);
-  }
-  RigidBody &slider(const std::array<double, 3> &axis) { return held(LSDCD_SLIDER, {}, axis); }
-  RigidBody &planar(const std::array<double, 3> &normal) { return held(LSDCD_PLANAR, {}, normal); }
-  RigidBody &ball(const std::array<double, 3> &point) { return held(LSDCD_BALL, point, {}); }
-
- private:
-  RigidBody &held(int kind, const std::array<double, 3> &p, const std::array<double, 3> &a)
-  {
-    joint = kind;
-    std::copy(p.begin(), p.end(), point);
-    std::copy(a.begin(), a.end(), axis);
-    return *this;
-  }
-};
 using BodyState = lsdcd_body_state;
-
-// Atom types from first to last, which 0: all from the first on.
-struct TypeLaw {
-  int first_type = 1, last_type = 0;
-  Law law;
-};
-
-// A mesh of a wall; fields as in lsdcd_wall_mesh.
-struct WallMesh {
-  // The mesh lives until the wall is made.
-  explicit WallMesh(const Mesh &mesh, std::string name = "") :
-      mesh(mesh.get()), name(std::move(name))
-  {
-  }
-  explicit WallMesh(const Mesh &&, std::string = "") = delete;    // it would end at once
-
-  const lsdcd_mesh *mesh;
-  std::string name;
-  Placement placement;
-  std::optional<Law> law;    // none: the wall's
-  std::vector<TypeLaw> type_laws;
-  bool posed_by_caller = false;
-  std::vector<Motion> motions;
-  std::optional<Servo> servo;
-  std::optional<RigidBody> body;
-  std::array<double, 3> surface_velocity = {}, surface_angular_velocity = {}, surface_centre = {};
-  double temperature = 0;
-  std::array<double, 3> torque_about = {};
-  bool torque_about_moves = false;
-  double wear_factor = 1;
-  std::string cache;
-  std::string fields, stl, spectrum;    // files, .vtp, .stl and .csv
-  int fields_every = 0, stl_every = 0, spectrum_every = 0;
-  bool nodes_by_caller = false;    // Wall::set_nodes() moves each of its vertices
-  double pressure = 0;             // force/area, on nodes
-};
-
-// A wall; fields as in lsdcd_wall_spec.
-struct WallSpec {
-  Law law;
-  std::vector<WallMesh> meshes;
-  int corner = LSDCD_BLEND, side = LSDCD_BOTH_SIDES;
-  int nearest = 0;
-  double cell = 0, memory = 0, rmax = 0;
-  int device = LSDCD_CPU;
-  int wear = LSDCD_NO_WEAR;
-  double wear_coefficient = 0, hardness = 0;
-  int wear_deform_every = 0;    // steps; 0: wear moves no mesh
-  double wear_deform_factor = 1;
-  bool periodic_ends = false, brief = false;
-  int average_every = 0;        // steps
-  bool each_contact = false;    // Wall::contacts() will be called
-  bool energy = false;          // what contacts dissipate is recorded
-  double friction_heat = 0;     // the share of the heat of friction that goes into the spheres
-  double impact_speed = 0;      // length/time; impacts that are faster are recorded
-  bool shapes = false;          // grains may be no spheres
-};
-
-namespace c {
-// Throws where a field of lsdcd_law is given another number of numbers than its sub-model has; in C these would be 0. A
-// name that there is not is left to the library.
-inline void check_numbers(const SubModel &model, const std::string &field)
-{
-  lsdcd_sub_model_facts facts = {};
-  facts.size = sizeof facts;
-  for (std::size_t k = 0; lsdcd_sub_model_get_facts(k, &facts) == LSDCD_OK; k++) {
-    if (field != facts.field || model.name != facts.name) continue;
-    const std::size_t n = static_cast<std::size_t>(facts.n);
-    if (model.numbers.size() == n) return;
-    std::string names;
-    for (std::size_t i = 0; i < n; i++)
-      names += (i == 0 ? ": " : " ") + std::string(facts.number[i]);
-    throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::SubModel: '" + model.name + "' is given " +
-                                          std::to_string(model.numbers.size()) +
-                                          (model.numbers.size() == 1 ? " number" : " numbers") +
-                                          ", and has " + std::to_string(n) + names +
-                                          "; kDerived may stand for one that is derived");
-  }
-}
-inline lsdcd_sub_model struct_of(const SubModel &model, const std::string &field)
-{
-  lsdcd_sub_model out = {};
-  check_numbers(model, field);
-  constexpr std::size_t kRoom = sizeof out.numbers / sizeof out.numbers[0];
-  if (model.numbers.size() > kRoom)
-    throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::SubModel: '" + model.name + "' is given " +
-                                          std::to_string(model.numbers.size()) +
-                                          " numbers; no sub-model has more than " +
-                                          std::to_string(kRoom));
-  if (!model.name.empty()) out.name = model.name.c_str();
-  std::copy(model.numbers.begin(), model.numbers.end(), out.numbers);
-  return out;
-}
-inline lsdcd_law struct_of(const Law &law)
-{
-  lsdcd_law out = {};
-  out.size = sizeof out;
-  out.style = struct_of(law.style, "style");
-  out.normal = struct_of(law.normal, "normal");
-  out.tangential = struct_of(law.tangential, "tangential");
-  out.damping = struct_of(law.damping, "damping");
-  out.rolling = struct_of(law.rolling, "rolling");
-  out.twisting = struct_of(law.twisting, "twisting");
-  out.heat = struct_of(law.heat, "heat");
-  out.cohesion = struct_of(law.cohesion, "cohesion");
-  out.limit_damping = law.limit_damping;
-  return out;
-}
-// With as many numbers as its facts say.
-inline SubModel model_of(const lsdcd_sub_model &from, const std::string &field)
-{
-  if (!from.name) return {};
-  lsdcd_sub_model_facts facts = {};
-  facts.size = sizeof facts;
-  std::size_t k = 0;
-  do check(lsdcd_sub_model_get_facts(k++, &facts));
-  while (field != facts.field || std::string(from.name) != facts.name);
-  return {from.name, {from.numbers, from.numbers + facts.n}};
-}
-
-// A WallSpec as structs of C, which point into it. These are filled by the names of all their members: one that is new does not
-// compile before it is here.
-class Spec {
- public:
-  explicit Spec(const WallSpec &from)
-  {
-    for (const WallMesh &mesh : from.meshes) meshes_.push_back(struct_of(mesh));
-    auto &[size, law, meshes, n_meshes, corner, side, nearest, cell, memory, rmax, device, wear,
-           wear_coefficient, hardness, wear_deform_every, wear_deform_factor, periodic_ends, brief,
-           average_every, each_contact, energy, friction_heat, impact_speed, shapes] = spec_;
-    size = sizeof spec_;
-    law = add(from.law);
-    meshes = meshes_.data();
-    n_meshes = meshes_.size();
-    corner = from.corner;
-    side = from.side;
-    nearest = from.nearest;
-    cell = from.cell;
-    memory = from.memory;
-    rmax = from.rmax;
-    device = from.device;
-    wear = from.wear;
-    wear_coefficient = from.wear_coefficient;
-    hardness = from.hardness;
-    wear_deform_every = from.wear_deform_every;
-    if (from.wear_deform_every != 0 || from.wear_deform_factor != 1)
-      wear_deform_factor = from.wear_deform_factor;
-    periodic_ends = from.periodic_ends;
-    brief = from.brief;
-    average_every = from.average_every;
-    each_contact = from.each_contact;
-    energy = from.energy;
-    friction_heat = from.friction_heat;
-    impact_speed = from.impact_speed;
-    shapes = from.shapes;
-  }
-  Spec(const Spec &) = delete;
-  Spec &operator=(const Spec &) = delete;
-  const lsdcd_wall_spec *get() const { return &spec_; }
-
- private:
-  const lsdcd_law *add(const Law &law)
-  {
-    laws_.push_back(c::struct_of(law));
-    return &laws_.back();
-  }
-  lsdcd_wall_mesh struct_of(const WallMesh &from)
-  {
-    static_assert(sizeof(Motion) == sizeof(lsdcd_motion), "an array of one is one of the other");
-    lsdcd_wall_mesh made = {};
-    auto &[size, mesh, name, placement, law, type_laws, n_type_laws, posed_by_caller, motions,
-           n_motions, servo, surface_velocity, surface_angular_velocity, surface_centre,
-           temperature, torque_about, torque_about_moves, wear_factor, cache, fields, stl, spectrum,
-           fields_every, stl_every, spectrum_every, nodes_by_caller, pressure, body] = made;
-    size = sizeof made;
-    mesh = from.mesh;
-    if (!from.name.empty()) name = from.name.c_str();
-    std::copy(from.placement.numbers().begin(), from.placement.numbers().end(), placement);
-    if (from.law) law = add(*from.law);
-    types_.emplace_back();
-    for (const TypeLaw &of : from.type_laws)
-      types_.back().push_back({sizeof(lsdcd_type_law), of.first_type, of.last_type, add(of.law)});
-    type_laws = types_.back().data();
-    n_type_laws = types_.back().size();
-    posed_by_caller = from.posed_by_caller;
-    motions = from.motions.data();
-    n_motions = from.motions.size();
-    if (from.servo) servo = &*from.servo;
-    if (from.body) body = &*from.body;
-    for (std::size_t k = 0; k < 3; k++) {
-      surface_velocity[k] = from.surface_velocity[k];
-      surface_angular_velocity[k] = from.surface_angular_velocity[k];
-      surface_centre[k] = from.surface_centre[k];
-      torque_about[k] = from.torque_about[k];
-    }
-    temperature = from.temperature;
-    torque_about_moves = from.torque_about_moves;
-    wear_factor = from.wear_factor == 0 ? -1 : from.wear_factor;
-    if (!from.cache.empty()) cache = from.cache.c_str();
-    if (!from.fields.empty()) fields = from.fields.c_str();
-    if (!from.stl.empty()) stl = from.stl.c_str();
-    if (!from.spectrum.empty()) spectrum = from.spectrum.c_str();
-    fields_every = from.fields_every;
-    stl_every = from.stl_every;
-    spectrum_every = from.spectrum_every;
-    nodes_by_caller = from.nodes_by_caller;
-    pressure = from.pressure;
-    return made;
-  }
-
-  std::deque<lsdcd_law> laws_;                       // where each stays, as pointers go there
-  std::deque<std::vector<lsdcd_type_law>> types_;    // likewise
-  std::vector<lsdcd_wall_mesh> meshes_;
-  lsdcd_wall_spec spec_ = {};
-};
-}    // namespace c
-
-inline Law Law::from_material(const Materials &materials, Law with, std::string *report)
-{
-  const SubModel given = std::move(with.normal);
-  with.normal = {};
-  if (!given.numbers.empty())
-    throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::Law::from_material: '" + given.name +
-                                          "' is given numbers, which are the materials'; leave "
-                                          "them out");
-  lsdcd_law law = c::struct_of(with);
-  if (!given.name.empty()) law.normal.name = given.name.c_str();
-  std::vector<lsdcd_override> overrides;
-  for (const Materials::Override &o : materials.overrides)
-    overrides.push_back({o.of.empty() ? nullptr : o.of.c_str(), o.key.c_str(), o.value});
-  lsdcd_materials from = {};
-  from.size = sizeof from;
-  from.file = materials.file.c_str();
-  from.particle = materials.particle.c_str();
-  from.wall = materials.wall.empty() ? nullptr : materials.wall.c_str();
-  from.overrides = overrides.data();
-  from.n_overrides = overrides.size();
-  from.units = materials.units.c_str();
-  const char *told = nullptr;
-  c::check(lsdcd_law_from_material(&from, &law, &told));
-  if (report) *report = told;
-  // All of its members: one that is new does not compile before it is here.
-  const auto &[size, style, normal, tangential, damping, rolling, twisting, heat, cohesion,
-               limit_damping] = law;
-  Law out;
-  out.normal = c::model_of(normal, "normal");
-  out.tangential = c::model_of(tangential, "tangential");
-  out.damping = c::model_of(damping, "damping");
-  out.rolling = c::model_of(rolling, "rolling");
-  out.twisting = c::model_of(twisting, "twisting");
-  out.heat = c::model_of(heat, "heat");
-  out.cohesion = c::model_of(cohesion, "cohesion");
-  out.limit_damping = limit_damping != 0;
-  return out;
-}
-inline Law Law::from_material(const Materials &materials, std::string *report)
-{
-  return from_material(materials, Law(), report);
-}
 
 // A contact of the last step; fields as in lsdcd_wall_contacts.
 struct WallContact {
@@ -1197,13 +735,6 @@ class Wall {
     c::check(lsdcd_wall_get_mesh(get(), name.c_str(), &number));
     return number;
   }
-  explicit Wall(const WallSpec &spec, const lsdcd_wall_options *options = nullptr)
-  {
-    lsdcd_wall *made = nullptr;
-    c::check(lsdcd_wall_from_spec(c::Spec(spec).get(), options, &made));
-    handle_.reset(made);
-  }
-
   void step(const lsdcd_spheres &spheres, const lsdcd_wall_step &step)
   {
     c::check(lsdcd_wall_step_spheres(get(), &spheres, &step));
@@ -1247,14 +778,14 @@ class Wall {
     c::check(lsdcd_wall_get_pose(get(), mesh, matrix.data()));
     return matrix;
   }
-  // Where mesh number `mesh`, which has posed_by_caller, is in the next step and those after it. In a step, but not with
+  // Where mesh number `mesh`, which has `motion caller`, is in the next step and those after it. In a step, but not with
   // `setup` or `synchronous`, points move with velocity + angular_velocity x (R x) of half a step before the pose, see lsdcd_wall_set_pose().
   void set_pose(int mesh, const Pose &pose)
   {
     c::check(lsdcd_wall_set_pose(get(), mesh, pose.position.data(), pose.quaternion.data(),
                                  pose.velocity.data(), pose.angular_velocity.data()));
   }
-  // Where the vertices of mesh number `mesh`, which has nodes_by_caller, are in the next step and those after it: 3
+  // Where the vertices of mesh number `mesh`, which has `nodes caller`, are in the next step and those after it: 3
   // numbers a vertex, in the order of your vertices, see lsdcd_wall_set_nodes(). `velocities` may be empty: all are 0 then. Throws
   // LSDCD_ERROR_ARGUMENT for another number of them.
   void set_nodes(int mesh, const std::vector<double> &positions,
@@ -1265,7 +796,7 @@ class Wall {
     c::check(lsdcd_wall_set_nodes(get(), mesh, positions.data(),
                                   velocities.empty() ? nullptr : velocities.data()));
   }
-  // Where they are after the last step, also of a mesh that wear moves (wear_deform_every), and the forces on nodes then.
+  // Where they are after the last step, also of a mesh that wear moves (`wear ... deform`), and the forces on nodes then.
   std::vector<double> nodes(int mesh)
   {
     std::vector<double> positions(node_numbers(mesh));
@@ -1292,7 +823,7 @@ class Wall {
   {
     c::check(lsdcd_wall_get_node_forces(get(), mesh, forces));
   }
-  // Contacts of this process in the last step, of a wall with each_contact.
+  // Contacts of this process in the last step, of a wall with `each_contact`.
   std::vector<WallContact> contacts()
   {
     lsdcd_wall_contacts ask = {};
@@ -1328,7 +859,7 @@ class Wall {
     }
     return all;
   }
-  // The spectrum of the impacts on a mesh since the first step, of a wall with impact_speed.
+  // The spectrum of the impacts on a mesh since the first step, of a wall with `impacts`.
   std::vector<ImpactBin> impacts(int mesh)
   {
     lsdcd_wall_impacts ask = {};
@@ -1345,16 +876,6 @@ class Wall {
     for (std::size_t k = 0; k < n; k++) all[k] = {begins[k], ends[k], impacts[k], energies[k]};
     return all;
   }
-  // Other motions, from where the mesh is; none: it stops there.
-  void set_motion(int mesh, const std::vector<Motion> &motions)
-  {
-    c::check(lsdcd_wall_set_motion(get(), mesh, motions.data(), motions.size()));
-  }
-  // Another servo, from where the mesh is; none: it stops there.
-  void set_servo(int mesh, const std::optional<Servo> &servo)
-  {
-    c::check(lsdcd_wall_set_servo(get(), mesh, servo ? &*servo : nullptr));
-  }
   // The rigid body that mesh number `mesh` is, after the last step, with velocities of the whole step; fields as in
   // lsdcd_body_state. Throws LSDCD_ERROR_ARGUMENT for a mesh that is none.
   BodyState body(int mesh)
@@ -1364,18 +885,13 @@ class Wall {
     c::check(lsdcd_wall_get_body(get(), mesh, &state));
     return state;
   }
-  // Another joint, spring, motor, load, moment and gravity, from where the body is.
-  void set_body(int mesh, const RigidBody &body)
-  {
-    c::check(lsdcd_wall_set_body(get(), mesh, &body));
-  }
   std::vector<double> save()
   {
     return numbers([&](double *to, std::size_t room, std::size_t *count) {
       return lsdcd_wall_save(get(), to, room, count);
     });
   }
-  // What a wall of the same spec saved, with the motion, servo or body that was set later; with `what_fits` also of another one, as far
+  // What a wall of the same words saved, with the motion, servo or body that was set later; with `what_fits` also of another one, as far
   // as it goes.
   void restore(const std::vector<double> &numbers, bool what_fits = false)
   {

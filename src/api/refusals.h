@@ -13,7 +13,7 @@
 
 namespace lsdcd {
 
-// `field`: "meshes[1].law.mu"; `value`: as it is to be shown; `remedy`: a clause.
+// `field`: "values[1].numbers"; `value`: as it is to be shown; `remedy`: a clause.
 [[noreturn]] inline void refuse_field(const std::string &field, const std::string &value,
                                       const std::string &remedy)
 {
@@ -29,40 +29,9 @@ inline std::string element(const std::string &array, std::size_t k)
 {
   return array + "[" + std::to_string(k) + "]";
 }
-inline std::string in_quotes(const std::string &text)
-{
-  return "\"" + text + "\"";
-}
-
-// Returns a finite number from `least` to `most`.
-inline double checked_number(double value, const std::string &field, double least = -Tokens::kHuge,
-                             double most = Tokens::kHuge)
+inline double checked_number(double value, const std::string &field)
 {
   if (!std::isfinite(value)) refuse_field(field, value, "give a finite number");
-  if (!(value >= least && value <= most))
-    refuse_field(field, value, "it is " + range_text(least, most));
-  return value;
-}
-
-inline double checked_number(double value, const std::string &field, const NumberRange &in)
-{
-  return checked_number(value, field, in.least, in.most);
-}
-// As this, or `otherwise` where it is 0.
-inline double number_or(double otherwise, double value, const std::string &field,
-                        const NumberRange &in)
-{
-  if (value == 0) return otherwise;
-  if (std::isfinite(value) && !(value >= in.least && value <= in.most))
-    refuse_field(field, value, "it is " + range_text(in.least, in.most) + ", or 0 for the default");
-  return checked_number(value, field);
-}
-// Returns a number of steps; 0 is `none`, as "there are no means".
-inline int steps_or_none(int value, const std::string &field, const std::string &none,
-                         const NumberRange &in)
-{
-  if (value != 0 && value < in.least)
-    refuse_field(field, std::to_string(value), "it is a number of steps, or 0: " + none);
   return value;
 }
 

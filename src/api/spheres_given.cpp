@@ -186,7 +186,7 @@ void refuse_shapes(const lsdcd_spheres &given)
 {
   if (given.half_axes || given.exponents || given.quaternions || given.inertia)
     throw ApiError(LSDCD_ERROR_ARGUMENT,
-                   "`half_axes` to `inertia` are of a wall whose spec has `shapes`: leave them "
+                   "`half_axes` to `inertia` are of a wall whose words have shapes: leave them "
                    "null, or make such a wall");
 }
 

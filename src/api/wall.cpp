@@ -4,7 +4,6 @@
 // lsdcd_wall_*: a wall is made, asked and freed.
 #include "api/call_threads.h"
 #include "api/refusals.h"
-#include "api/wall_given.h"
 #include "api/wall_handle.h"
 #include "backend/cuda_available.h"
 #include "base/input_words.h"
@@ -124,17 +123,6 @@ std::unique_ptr<lsdcd_wall> make_wall(const lsdcd_wall_options *options,
 }    // namespace lsdcd
 
 extern "C" {
-
-int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *options,
-                         lsdcd_wall **wall)
-{
-  return guard([&] {
-    need(wall, "wall");
-    *wall = make_wall(options, [&](lsdcd_wall &made) {
-              return GivenWall{wall_spec_of(spec, made.gpu != nullptr), ""};
-            }).release();
-  });
-}
 
 int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, const double *about,
                           lsdcd_wall_totals *totals)

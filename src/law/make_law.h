@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A law is made of sub-models and their numbers, whether a script or a program gives them.
+// A law is made of sub-models and their numbers.
 #pragma once
 
 #include "base/input_error.h"

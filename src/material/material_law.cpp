@@ -285,8 +285,7 @@ class LawFiller {
 
   [[noreturn]] void fail(const std::string &problem) const
   {
-    throw InputError("in 'material', " + problem +
-                     (*words_.syntax ? std::string(". Syntax: ") + words_.syntax : ""));
+    throw InputError("in 'material', " + problem + ". Syntax: " + words_.syntax);
   }
 
   const MaterialPair &c_;

@@ -37,9 +37,8 @@ struct MaterialPair {
 
 // How messages call what a caller gives.
 struct MaterialWords {
-  const char *on, *with,
-      *syntax;             // of the wall's material, of an override; empty syntax: none is shown
-  const char *as_given;    // "as the input script says"
+  const char *on, *with, *syntax;    // of the wall's material, of an override; of all
+  const char *as_given;              // "as the input script says"
 };
 
 struct MaterialLaw {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// lsdcd.hpp for tests that use the core, too. Both have a Pose, a WallSpec and more, so that headers of the core come
+// lsdcd.hpp for tests that use the core, too. Both have a Pose, a Wall and more, so that headers of the core come
 // first; tests call the library's api::Pose.
 #pragma once
 

@@ -232,7 +232,7 @@ def test_wheel(work):
           folder=work, **alone)
     gives("and the pairs", WANTED_PAIRS, python, os.path.join(examples, "collide.py"), "floor.stl", "cube.stl", folder=work, **alone)
     gives("a law finds the materials there", "made of glass", python, "-c",
-          "import lsdcd; lsdcd.Law.from_material('glass.lsdcd', 'glass'); print('made of glass')", folder=work, LSDCD_POTENTIALS="",
+          "import lsdcd; lsdcd.Wall.check('granular material glass.lsdcd glass mesh any.stl'); print('made of glass')", folder=work, LSDCD_POTENTIALS="",
           LAMMPS_POTENTIALS="", **alone)
     run(python, "-m", "pip", "uninstall", "--yes", "lsdcd", folder=work)
     left = [name for folder, _, names in os.walk(venv) for name in names

@@ -281,7 +281,7 @@ def test_shapes_at_walls():
     fact("contacts have the point of the plane under an ellipsoid's lowest, and its overlap, that of the last step",
          found.sphere.tolist() == [0, 1] and np.allclose(found.point, [[1.5 / height, 0, 0], [5, 0, 0]], rtol=0, atol=1e-14) and
          np.allclose(found.overlap, 0.01, rtol=0, atol=1e-14) and np.array_equal(found.force, force), found)
-    refused("shapes at a wall without them", "`half_axes` to `inertia` are of a wall whose spec has `shapes`",
+    refused("shapes at a wall without them", "`half_axes` to `inertia` are of a wall whose words have shapes",
             lambda: step(wall_of(""), **shapes), lsdcd.Error)
     refused("a wall of shapes whose step has none", "`half_axes` is null", lambda: step(wall_of("shapes")), lsdcd.Error)
     refused("a quaternion of 0", "quaternions[0] is 0 or no number",
@@ -406,29 +406,6 @@ def check_copied_arrays(wall, given):
     wall.step(**{**given, "x": x})
     x.resize((2, 3))
     fact("arrays of the last step can be resized", x.shape == (2, 3))
-
-
-def test_specs():
-    """Specs print and are pickled as the call that made them."""
-    axis = np.array([0.0, 0, 1])
-    law = lsdcd.Law("hooke", kn=1000, kt=0, gamman=0, gammat=None, xmu=0, dampflag=0)
-    granular = lsdcd.Law.granular(lsdcd.SubModel("hertz", kn=1e4, eta=1), lsdcd.SubModel("linear_nohistory", xgammat=1, mu=0.5))
-    specs = (law, granular, lsdcd.Motion.rotate((0, 0, 0), axis, 2.0), lsdcd.Servo(axis, 5.0, 1.0, limits=(-1, 1)),
-             lsdcd.RigidBody(2.0, joint="hinge", axis=axis), lsdcd.Motion.table(np.arange(8.0).reshape(2, 4)))
-    printed = [repr(spec) for spec in specs]
-    axis[:] = 7
-    fact("specs print as the call that made them", printed[0] ==
-         "Law(style='hooke', kn=1000, kt=0, gamman=0, gammat=None, xmu=0, dampflag=0)", printed[0])
-    fact("class methods, too, and arrays are as they were", printed[2] ==
-         "Motion.rotate(point=(0, 0, 0), axis=array([0., 0., 1.]), period=2.0)" == repr(specs[2]), printed[2])
-    again = [pickle.loads(pickle.dumps(spec)) for spec in specs]
-    fact("pickled specs print alike", [repr(spec) for spec in again] == printed, again)
-    walls = [lsdcd.Wall(lsdcd.WallSpec(of, [lsdcd.WallMesh(FLOOR)])) for of in (law, again[0], granular, again[1])]
-    force = np.zeros((4, 1, 3))
-    for k, wall in enumerate(walls):
-        wall.step(np.array([[0, 0, 0.49]]), np.ones((1, 3)), np.ones((1, 3)), np.full(1, 0.5), np.ones(1), force[k], np.zeros((1, 3)), 1e-3)
-    fact("a pickled law has the forces of the first", (force[0] == force[1]).all() and (force[2] == force[3]).all() and
-         force[0].any() and (force[0] != force[2]).any(), force)
 
 
 def test_meshes_of_walls():
@@ -657,33 +634,13 @@ def test_materials(folder):
             lambda: lsdcd.Wall("granular hooke material $file glass mesh $floor", file=materials, floor=FLOOR), lsdcd.Error)
 
 
-def test_laws_of_materials(folder):
-    """The same of Law.from_material()."""
-    sub, materials = lsdcd.SubModel, str(write_glass(folder))
-
-    def floor_of(law):
-        return lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(FLOOR)]))
-
-    glass = lsdcd.Law.from_material(materials, "glass")
-    same = lsdcd.Law.granular(sub("hertz/material", E=5e4, e=0.9, nu=0.23), sub("mindlin", xgammat=1, mu=0.1),
-                              "coeff_restitution")
-    fact("a law of materials has the bits of their numbers", forces(floor_of(glass)).tobytes() == forces(floor_of(same)).tobytes())
-    fact("it tells its numbers", "restitution 0.9 (some.lsdcd line 6)" in glass.report, glass.report)
-    fact("and a source that is no UTF-8, by its byte", "some.lsdcd line 3): M\\xfcller" in glass.report, glass.report)
-    again = pickle.loads(pickle.dumps(glass))
-    fact("it is pickled", forces(floor_of(again)).tobytes() == forces(floor_of(glass)).tobytes(), again)
-    rough = lsdcd.Law.from_material(materials, "glass", tangential=sub("mindlin", xgammat=0.5), damping="tsuji",
-                                    overrides={"restitution": 0.5, ("glass", "youngs_modulus"): 1e4})
-    fact("with other sub-models and numbers", forces(floor_of(rough)).tobytes() == forces(floor_of(lsdcd.Law.granular(
-        sub("hertz/material", E=1e4, e=0.5, nu=0.23), sub("mindlin", xgammat=0.5, mu=0.1), "tsuji"))).tobytes())
-    for says, more, kind in (
-            ("'iron' is not a material of", {"particle": "iron"}, lsdcd.Error),
-            ("restitution = 2 is out of range", {"overrides": {"restitution": 2.0}}, lsdcd.Error),
-            ("restitution of overrides is 'a'", {"overrides": {"restitution": "a"}}, TypeError),
-            ("does not take material constants", {"normal": "hooke"}, lsdcd.Error)):
-        refused(says, says, lambda more=more: lsdcd.Law.from_material(**{"file": materials, "particle": "glass", **more}), kind)
-    names = {(row.field, row.name) for row in lsdcd.sub_models()}
-    fact("sub-models are listed", {("style", "hooke/history"), ("tangential", "mindlin"), ("rolling", "cdt")} <= names, names)
+def test_sub_models():
+    """The formulas of contact laws, with their numbers."""
+    rows = {(row.family, row.name): row for row in lsdcd.sub_models()}
+    fact("sub-models are listed", {("style", "hooke/history"), ("normal", "hertz"), ("tangential", "mindlin"), ("rolling", "cdt")} <= rows.keys(), rows)
+    mindlin = rows["tangential", "mindlin"]
+    fact("with their numbers, which NULL may stand for", mindlin.numbers == ("kt", "xgammat", "mu") and mindlin.may_be_derived[0] and
+         mindlin.units[0] == "force/length^2" and mindlin.ranges[2][0] == 0 and not mindlin.beside_style, mindlin)
 
 
 def test_wall_arrays():
@@ -852,22 +809,9 @@ def test_given_values():
 
 
 def test_values_that_c_reads_otherwise():
-    """Numbers that stand for something else in C, texts as truth, None as a number, and a name that belongs to another law."""
-    sub = lsdcd.SubModel
+    """Numbers that stand for something else in C, texts as truth, and None as a number."""
     mesh = lsdcd.Mesh(np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float), [[0, 1, 2], [0, 2, 3]])
-    friction = sub("mindlin", kt=1, xgammat=1, mu=0.5)
-    for says, call in (
-            ("kt of mindlin is -1.0", lambda: lsdcd.Law.granular(sub("hertz/material", E=1, e=1, nu=0), sub(
-                "mindlin", kt=-1.0, xgammat=1, mu=0.5), "tsuji")),
-            ("hertz has no number e beside the damping viscoelastic", lambda: lsdcd.Law.granular(sub("hertz", kn=1, e=1), friction)),
-            ("hertz has no number eta beside the damping tsuji", lambda: lsdcd.Law.granular(
-                sub("hertz", kn=1, eta=1), friction, "tsuji")),
-            ("hooke has no number eta beside the damping coeff_restitution", lambda: lsdcd.Law.granular(
-                sub("hooke", kn=1, eta=1), friction, "coeff_restitution")),
-            ("hertz has no number e beside", lambda: lsdcd.Law.granular(sub("hertz", kn=1, e=1, eta=1), friction)),
-            ("hertz needs the number eta", lambda: lsdcd.Law.granular(sub("hertz", kn=1), friction)),
-            ("cutoff is 0", lambda: mesh.grid(cutoff=0))):
-        refused(f"refused: {says}", says, call, ValueError)
+    refused("refused: cutoff is 0", "cutoff is 0", lambda: mesh.grid(cutoff=0), ValueError)
     body = lsdcd.Body(mesh, mesh)
     for name, call in (
             ("estimate_sides", lambda no: mesh.grid().query([0, 0, 1], estimate_sides=no)),
@@ -929,7 +873,6 @@ def test_what_begins_wrongly():
     for name, what in (("/dev/zero", "a device"), ("/", "a directory")):
         refused(f"a table {name} is no file", f"it is {what}; give the path of a file of text",
                 lambda: made("motion table $file", file=name), lsdcd.Error)
-    refused("a Motion has a kind", "Motion.linear()", lsdcd.Motion)
 
     def says(code, **environment):
         return subprocess.run([sys.executable, "-c", code], env={**os.environ, **environment}, text=True, capture_output=True).stderr
@@ -1003,14 +946,12 @@ def test_nonsense():
     grid, body, points = mesh.grid(cutoff=0.5), lsdcd.Body(mesh, mesh), np.zeros((2, 3))
     vectors, numbers = ("x", "v", "omega", "force", "torque"), ("radius", "mass")
     spheres = {**{k: np.zeros((1, 3)) for k in vectors}, **{k: np.ones(1) for k in numbers}, "dt": 1e-3}
-    wall, law = on_floor(), lsdcd.Law("hooke", kn=1, kt=0, gamman=0, xmu=0, dampflag=0)
+    wall = on_floor()
     calls = {"Mesh()": lsdcd.Mesh, "faces": lambda b: lsdcd.Mesh(corners[0], b), "vertices": lambda b: lsdcd.Mesh(b, [[0, 1, 2]]),
              "weld": lambda b: lsdcd.Mesh(corners, weld=b), "query()": grid.query, "contacts()": lambda b: grid.contacts(b, 0.1),
              "radius of contacts()": lambda b: grid.contacts(points, b), "Body()": lambda b: lsdcd.Body(b, mesh),
              "mesh of Body()": lambda b: lsdcd.Body(mesh, b), "Wall()": lsdcd.Wall,
-             "Law()": lsdcd.Law, "WallMesh()": lsdcd.WallMesh, "WallSpec()": lambda b: lsdcd.WallSpec(b, []),
-             "meshes of WallSpec()": lambda b: lsdcd.WallSpec(law, b), "Motion()": lsdcd.Motion.linear,
-             "placement": lambda b: lsdcd.WallMesh(mesh, placement=b), "about": lambda b: wall.totals(0, b),
+             "about": lambda b: wall.totals(0, b),
              "out of query()": lambda b: grid.query(points, out={"distance": b}), "a word": lambda b: grid.query(points, [b]),
              "out of contacts()": lambda b: grid.contacts(points, 0.1, out={"point": b}),
              "to": lambda b: wall.unpack(b, [1.0]), "numbers": lambda b: wall.unpack([0], b), "check()": lsdcd.Wall.check, "change()": wall.change,
@@ -1073,7 +1014,7 @@ def in_c():
             element = f"{member}[0]" if issubclass(kind, ctypes.Array) else member
             if one in kinds:
                 lines.append(f'_Static_assert(_Generic({element}, {kinds[one]}: 1, default: 0), "{name}.{field}");')
-        values = ", ".join("{0}" if issubclass(kind, (ctypes.Array, ctypes.Structure)) else "0" for _, kind in struct._fields_)
+        values = ", ".join("{0}" if issubclass(kind, ctypes.Array) else "0" for _, kind in struct._fields_)
         lines.append(f"const {name} made_{name} = {{{values}}};")
     results = {ctypes.c_int: "i = ", ctypes.c_char_p: "text = ", None: ""}
     given = {ctypes.c_int: "i", ctypes.c_double: "d", ctypes.c_size_t: "n", ctypes.c_char_p: "text", ctypes.c_void_p: "p"}
@@ -1095,8 +1036,8 @@ def test_layouts():
 
     program = in_c()
     fact("structs and functions are those of the header", says(program) == "", says(program)[:2000])
-    for name, was, spoilt in (("a field more in C", r"(made_lsdcd_servo = \{.*), 0\};", r"\1};"),
-                              ("a field of another kind", "_motion \\*\\) 0\\)->kind, int", "_motion *) 0)->kind, double"),
+    for name, was, spoilt in (("a field more in C", r"(made_lsdcd_body_facts = \{.*), 0\};", r"\1};"),
+                              ("a field of another kind", "_value \\*\\) 0\\)->kind, int", "_value *) 0)->kind, double"),
                               ("an argument less", "lsdcd_wall_get_pose\\(p, i, p\\)", "lsdcd_wall_get_pose(p, i)")):
         other = re.sub(was, spoilt, program)
         fact(f"{name} is found", other != program and says(other) != "", was)

@@ -112,15 +112,6 @@ def test_bits_of_a_script(folder):
         fact(f"{name}: the bits of the script", (found == wanted).all() and wanted[:, 2].any(), found - wanted)
 
 
-def test_bits_of_a_matrix(folder):
-    """A spec may have a matrix where words place by scale, rotate and move."""
-    hooke = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=20, xmu=0.5, dampflag=1)
-    placed = lsdcd.Placement().scale(2).rotate((0, 0.1, 1), 30).move(0, 0, 0.01)
-    wanted, = forces_by_lammps(LMP, str(folder), [in_script(WALLS["a placement"])])
-    found = forces_by_library(lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(FLOOR, placement=placed.matrix)])))
-    fact("a matrix: the bits of the script", (found == wanted).all() and wanted[:, 2].any(), found - wanted)
-
-
 # Keywords that the wall of test_numbers_by_name() does not have.
 WITHOUT = ("body_", "removed_", "held_back_", "couple_", "lost_wear")
 

@@ -85,17 +85,4 @@ double ScriptWall::removed(int mesh) const
   return in_->wall->removed(mesh);
 }
 
-std::vector<double> ScriptWall::body(int mesh)
-{
-  const RigidBody &body = in_->wall->body(mesh)->rigid();
-  std::vector<double> all;
-  const auto put = [&](const Vec3 &v) { all.insert(all.end(), {v.x, v.y, v.z}); };
-  put(body.centre());
-  all.push_back(body.turn().w);
-  put(body.turn().v);
-  put(body.velocity());
-  put(body.omega());
-  return all;
-}
-
 }    // namespace lsdcd

@@ -27,8 +27,6 @@ class ScriptWall {
 
   double worn(int mesh) const;       // volume
   double removed(int mesh) const;    // likewise, see MeshWear
-  // Of a mesh that is a body: centre, quaternion, velocity and angular velocity, 13 numbers.
-  std::vector<double> body(int mesh);
 
  private:
   struct State;

@@ -37,12 +37,9 @@ from ._c import DEVICES as DEVICES, ERRORS as ERRORS, Error as Error, Progress a
 from ._c import (_BodyFacts, _BodyOptions, _BodyState, _Broadcast, _Collision, _Contacts, _GridFacts, _GridOptions, _Host,
                  _MeshArrays, _MeshFacts, _Owner, _Query, _Record, _Reduce, _Show, _Spheres, _WallOptions, _WallStep,
                  _WallContacts, _WallImpacts, _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _flag, _in_use,
-                 _instance, _int, _interrupts_held, _lib, _listened, _numbers, _real, _size, _sized, _text, _tuple)
+                 _int, _interrupts_held, _lib, _listened, _numbers, _real, _size, _sized, _text, _tuple)
 from ._shapes import (ShapeContacts as ShapeContacts, ShapeDistances as ShapeDistances, ShapeFacts as ShapeFacts,
                       shape_facts as shape_facts)
-from ._spec import (Law as Law, Motion as Motion, Placement as Placement, RigidBody as RigidBody, Servo as Servo,
-                    SubModel as SubModel, WallMesh as WallMesh, WallSpec as WallSpec)
-from ._spec import _motion_array
 from ._sub_models import SubModelFacts as SubModelFacts, sub_models as sub_models
 from ._words import Values as _Values
 
@@ -628,7 +625,7 @@ class WallTotals(_Record):
     servo_position: float    # 0 without a servo, as the next two
     servo_velocity: float
     servo_push: float
-    removed_volume: float    # by which wear has moved the mesh, see `wear_deform`
+    removed_volume: float    # by which wear has moved the mesh, see `wear ... deform`
     held_back_volume: float  # likewise, worn at vertices that stay
     couple: NDArray[np.float64]    # (3,) on a mesh whose nodes you move, which no node gets: the torque is of their forces
     mean_force: NDArray[np.float64]     # (3,) over the steps of `average`
@@ -640,9 +637,9 @@ class WallTotals(_Record):
     drive_work: float     # of the mesh on the spheres
     held_energy: float    # elastic, after the step
     remainder: float      # contact_work less all that is held or lost
-    impacts: float        # number since the first step, of a wall with `impact_speed`
+    impacts: float        # number since the first step, of a wall with `impacts`
     impact_energy: float  # sum of m v^2/2, with the speed along the normal
-    lost_wear: float      # energy that contacts lose as wear moves the mesh, of a wall with `energy` and `wear_deform`
+    lost_wear: float      # energy that contacts lose as wear moves the mesh, of a wall with `energy` and `wear ... deform`
     elastic_energy: float    # of overlaps and tangential springs, by the forces of the step
 
 
@@ -701,7 +698,7 @@ class BodyState(_Record):
 
 
 class Wall(_Owner):
-    """A wall of meshes that pushes spheres, by the words that stand behind `wall/lsdcd` in a script, or by a WallSpec. In words $NAME is a value of
+    """A wall of meshes that pushes spheres, by the words that stand behind `wall/lsdcd` in a script. In words $NAME is a value of
     yours, given by its name, or in `values`: a Mesh, numbers (None: NULL), rows of a motion table, or a text. `mesh $NAME` is called NAME; `motion
     caller` has its poses by set_pose(), `nodes caller` its nodes by set_nodes(), v_NAME its value by set_input(); `shapes` says that grains may be no
     spheres; a body has no gravity where the words give none. `units`: of numbers from files of materials, "si", "cgs", "micro" or "nano".
@@ -715,23 +712,19 @@ class Wall(_Owner):
     wall is made, in the order of `stream`: one of PyTorch or CuPy, or a cudaStream_t as a number; None: the default
     one.
 
-    With a `host` there are several processes: each makes a Wall of the same spec, for spheres of its own, and
+    With a `host` there are several processes: each makes a Wall of the same words, for spheres of its own, and
     all call its methods together, but for renumber(), pack(), unpack(), pose(), set_pose(), nodes() and set_nodes(). The errors of one are raised
     on all.
 
-    Raises Error for a spec that makes no wall, with the field, its value and what to give; TypeError and ValueError for other
+    Raises Error for words that make no wall, with the word and what to give; TypeError and ValueError for other
     arguments."""
     _free = _lib.lsdcd_wall_free
 
-    def __init__(self, spec: WallSpec | str, lo: ArrayLike | None = None, hi: ArrayLike | None = None,
+    def __init__(self, words: str, lo: ArrayLike | None = None, hi: ArrayLike | None = None,
                  periodic: Sequence[bool] = (False, False, False), margin: float = 0.0, time: float = 0.0,
                  show: Callable[[str, bool], object] | None = None, threads: int = 0, host: Host | None = None,
                  device: str = "cpu", stream: Any = None, units: str = "si", values: Mapping[str, Any] | None = None, **named: Any) -> None:
         super().__init__()
-        # By words the library knows the names of meshes.
-        self._names: list[str] | None = None if isinstance(spec, str) else _instance(spec, WallSpec, "spec")._names()
-        if self._names is not None and (values or named):
-            raise TypeError(f"{', '.join((*(values or {}), *named))}: values go with words, not with a WallSpec")
         self._on_device = bool(_chosen("device", device, DEVICES))
         self._stream = stream    # which must live as long as the wall
         # What callbacks raised, which C cannot pass on. They know this list, not the wall, so that the wall is freed with its name.
@@ -770,13 +763,9 @@ class Wall(_Owner):
         for name, place in (("lo", least), ("hi", most)):
             if place is not None:
                 setattr(options, name, (_real * 3)(*place))
-        if isinstance(spec, str):
-            given = _Values({**(values or {}), **named}, Mesh)
-            self._do(_lib.lsdcd_wall_create, _c_text(spec, "the words"), given.structs, given.n, ctypes.byref(options),
-                     ctypes.byref(self._handle), meshes=given.meshes)
-        else:
-            self._do(_lib.lsdcd_wall_from_spec, ctypes.byref(spec._struct), ctypes.byref(options), ctypes.byref(self._handle),
-                     meshes=spec._meshes())
+        given = _Values({**(values or {}), **named}, Mesh)
+        self._do(_lib.lsdcd_wall_create, _c_text(words, "words"), given.structs, given.n, ctypes.byref(options),
+                 ctypes.byref(self._handle), meshes=given.meshes)
 
     @staticmethod
     def check(words: str, values: Mapping[str, Any] | None = None, units: str = "si", **named: Any) -> None:
@@ -784,13 +773,13 @@ class Wall(_Owner):
         given = _Values({**(values or {}), **named}, Mesh)
         options = _sized(_WallOptions, units=units, show=_Show(0))
         with _in_use(*given.meshes):
-            _check(_lib.lsdcd_wall_check(_c_text(words, "the words"), given.structs, given.n, ctypes.byref(options)))
+            _check(_lib.lsdcd_wall_check(_c_text(words, "words"), given.structs, given.n, ctypes.byref(options)))
 
     def change(self, words: str, values: Mapping[str, Any] | None = None, **named: Any) -> None:
         """Changes the wall by the words of fix_modify: "mesh lid motion ...", "motion none", "servo ...", "servo none" or "body ..." of what is to
         change, from where the mesh is. Raises Error for others, and the wall stays as it is."""
         given = _Values({**(values or {}), **named}, Mesh)
-        self._do(_lib.lsdcd_wall_change, self._handle, _c_text(words, "the words"), given.structs, given.n, meshes=given.meshes)
+        self._do(_lib.lsdcd_wall_change, self._handle, _c_text(words, "words"), given.structs, given.n, meshes=given.meshes)
 
     def set_input(self, name: str, value: float) -> None:
         """The value of v_NAME in the words from the next step on, the same on all processes. Raises Error for a name that the words have not, and a
@@ -862,17 +851,12 @@ class Wall(_Owner):
         """The number of a mesh that is given by its number or its name."""
         if not isinstance(mesh, str):
             return _c_int(mesh, "mesh")
-        if self._names is None:
-            number = _int()
-            try:
-                self._do(_lib.lsdcd_wall_get_mesh, self._handle, _c_text(mesh, "mesh"), ctypes.byref(number))
-            except Error as e:
-                raise ValueError(f"mesh is {mesh!r}: {e}") from None
-            return number.value
-        if self._names.count(mesh) != 1:
-            raise ValueError(f"mesh is {mesh!r}, which {'several meshes are' if mesh in self._names else 'no mesh is'} called; "
-                             f"there are {', '.join(map(repr, self._names))}")
-        return self._names.index(mesh)
+        number = _int()
+        try:
+            self._do(_lib.lsdcd_wall_get_mesh, self._handle, _c_text(mesh, "mesh"), ctypes.byref(number))
+        except Error as e:
+            raise ValueError(f"mesh is {mesh!r}: {e}") from None
+        return number.value
 
     def _mesh_or_all(self, mesh: int | str | None) -> int:
         """All of C is -1."""
@@ -951,7 +935,7 @@ class Wall(_Owner):
 
     def set_pose(self, mesh: int | str = 0, position: ArrayLike | None = None, quaternion: ArrayLike | None = None,
                  velocity: ArrayLike | None = None, angular_velocity: ArrayLike | None = None) -> None:
-        """Where mesh number `mesh`, from 0, which has posed_by_caller, is in the next step and those after it: what was at
+        """Where mesh number `mesh`, from 0, which has `motion caller`, is in the next step and those after it: what was at
         x when the wall was made is at R x + position, and moves with velocity + angular_velocity x (R x).
 
         position: (3,), length. quaternion: (4,), w x y z of R, of length 1 to 1e-3. velocity: (3,), length/time, of the
@@ -966,7 +950,7 @@ class Wall(_Owner):
                  *(None if numbers is None else numbers.ctypes.data for numbers in given))
 
     def set_nodes(self, mesh: int | str, positions: ArrayLike, velocities: ArrayLike | None = None) -> None:
-        """Where the vertices of mesh number `mesh`, from 0, which has nodes_by_caller, are in the next step and those
+        """Where the vertices of mesh number `mesh`, from 0, which has `nodes caller`, are in the next step and those
         after it, and how fast they go. Between the nodes of a triangle both are linear.
 
         positions: (vertices, 3), length, in the order of your vertices: those that the mesh was made of or that its file
@@ -990,7 +974,7 @@ class Wall(_Owner):
         self._do(_lib.lsdcd_wall_set_nodes, self._handle, self._mesh(mesh), *places, *[None] * (2 - len(places)))
 
     def impacts(self, mesh: int | str = 0) -> WallImpacts:
-        """The spectrum of the impacts on mesh number `mesh`, from 0, over all processes, of a wall with `impact_speed`. Raises Error
+        """The spectrum of the impacts on mesh number `mesh`, from 0, over all processes, of a wall with `impacts`. Raises Error
         for another one, and for a mesh that there is not."""
         ask = _sized(_WallImpacts)
         self._do(_lib.lsdcd_wall_get_impacts, self._handle, self._mesh(mesh), ctypes.byref(ask))
@@ -1016,7 +1000,7 @@ class Wall(_Owner):
         return found
 
     def nodes(self, mesh: int | str = 0) -> NDArray[np.float64]:
-        """Where the vertices of a mesh with nodes_by_caller, or of one that wear moves (wear_deform), are after the last step,
+        """Where the vertices of a mesh with `nodes caller`, or of one that wear moves (`wear ... deform`), are after the last step,
         (vertices, 3), length, in your order; nan for a vertex of no face."""
         return self._of_nodes(_lib.lsdcd_wall_get_nodes, mesh)
 
@@ -1045,16 +1029,6 @@ class Wall(_Owner):
         self._do(call, self._handle, self._mesh(mesh), numbers.ctypes.data)
         return numbers
 
-    def set_motion(self, mesh: int | str, motions: Sequence[Motion]) -> None:
-        """Other motions for a mesh, from where it is; none: it stops there."""
-        array = _motion_array(motions)
-        self._do(_lib.lsdcd_wall_set_motion, self._handle, self._mesh(mesh), ctypes.addressof(array), len(array))
-
-    def set_servo(self, mesh: int | str, servo: Servo | None) -> None:
-        """Another servo for a mesh, from where it is; None: it stops there. Along the same line its position goes on."""
-        given = None if servo is None else ctypes.addressof(_instance(servo, Servo, "servo")._struct)
-        self._do(_lib.lsdcd_wall_set_servo, self._handle, self._mesh(mesh), given)
-
     def body(self, mesh: int | str) -> BodyState:
         """The rigid body that mesh number `mesh`, from 0, is after the last step, with velocities of the whole step. Raises
         Error for a mesh that there is not or that is no body."""
@@ -1062,14 +1036,6 @@ class Wall(_Owner):
         self._do(_lib.lsdcd_wall_get_body, self._handle, self._mesh(mesh), ctypes.byref(state))
         values = {name: getattr(state, name) for name, _ in _BodyState._fields_[1:]}
         return BodyState(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
-
-    def set_body(self, mesh: int | str, body: RigidBody) -> None:
-        """Another joint, spring, limits, motor, load, moment and gravity of a body, from where it is and without a jump. With
-        another joint its coordinate begins at 0 there, and what the joint allows of its velocity goes on. Mass, velocities and
-        coat of `body` are not looked at. Raises Error for a mesh that is no body, and for limits that do not hold the
-        coordinate."""
-        self._do(_lib.lsdcd_wall_set_body, self._handle, self._mesh(mesh),
-                 ctypes.addressof(_instance(body, RigidBody, "body")._struct))
 
     def save(self) -> NDArray[np.float64]:
         """What the wall and the contacts of its spheres keep, an array for restore()."""
@@ -1084,7 +1050,7 @@ class Wall(_Owner):
         return numbers
 
     def restore(self, numbers: ArrayLike, what_fits: bool = False) -> None:
-        """Before the first step of a wall of the same spec, with the motion, servo or body that was set later. Raises Error for numbers of
+        """Before the first step of a wall of the same words, with the motion, servo or body that was set later. Raises Error for numbers of
         another wall, with what differs; with `what_fits` it takes of them what fits, and `show` is told what does not."""
         saved = _in_a_row(_as_floats(numbers, "numbers"), "numbers", np.float64)
         call = _lib.lsdcd_wall_restore_what_fits if _flag(what_fits, "what_fits") else _lib.lsdcd_wall_restore

@@ -6,14 +6,12 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
-import functools
 import glob
-import inspect
 import operator
 import os
 import signal
 import threading
-from typing import Any, Callable, Iterator, Sequence, TypeVar, cast
+from typing import Any, Callable, Iterator, Sequence, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -42,10 +40,7 @@ _structs: Any = _HEADER.structs
     "mesh_facts", "mesh_arrays", "grid_options", "grid_facts", "query", "contacts"))
 _Shapes, _ShapeFacts = _structs["lsdcd_shapes"], _structs["lsdcd_shape_facts"]
 (_BodyOptions, _BodyFacts, _Collision) = (_structs["lsdcd_" + name] for name in ("body_options", "body_facts", "collision"))
-(_SubModel, _Law, _SubModelFacts, _Override, _Materials, _TypeLaw) = (_structs["lsdcd_" + name] for name in (
-    "sub_model", "law", "sub_model_facts", "override", "materials", "type_law"))
-(_Motion, _Servo, _RigidBody, _BodyState, _WallMesh, _WallSpec) = (_structs["lsdcd_" + name] for name in (
-    "motion", "servo", "rigid_body", "body_state", "wall_mesh", "wall_spec"))
+_SubModelFacts, _BodyState = _structs["lsdcd_sub_model_facts"], _structs["lsdcd_body_state"]
 (_Host, _WallOptions, _Spheres, _WallStep, _WallTotals, _WallContacts, _WallImpacts) = (_structs["lsdcd_" + name] for name in (
     "host", "wall_options", "spheres", "wall_step", "wall_totals", "wall_contacts", "wall_impacts"))
 
@@ -199,22 +194,6 @@ def _tuple(value: Any, form: str, name: str) -> tuple[Any, ...]:
     return values
 
 
-def _instance(value: Any, kind: Any, name: str) -> Any:
-    if not isinstance(value, kind):
-        raise TypeError(f"{name} is {value!r}, not a {kind.__name__}")
-    return value
-
-
-def _list(values: Any, name: str) -> list[Any]:
-    if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__"):
-        raise TypeError(f"{name} is {values!r}, not a list")
-    return list(values)
-
-
-def _instances(values: Any, kind: Any, name: str) -> list[Any]:
-    return [_instance(value, kind, f"{name}[{k}]") for k, value in enumerate(_list(values, name))]
-
-
 def _facts(struct: Any, call: Any, handle: Any) -> dict[str, Any]:
     facts = _sized(struct)
     _check(call(handle, ctypes.byref(facts)))
@@ -286,43 +265,6 @@ def _in_use(*objects: _Owner) -> Iterator[None]:
     finally:
         for one in objects:
             one._calls.pop()
-
-
-class _Spec:
-    """Prints, and is pickled, as the call that made it. `_made_by`: the name of a class method, "" for the class itself, and the
-    arguments by name."""
-    _made_by: tuple[str, dict[str, Any]]
-
-    def __repr__(self) -> str:
-        method, given = self._made_by
-        maker = type(self).__name__ + ("." + method if method else "")
-        return f"{maker}({', '.join(f'{name}={value!r}' for name, value in given.items())})"
-
-    def __reduce__(self) -> Any:
-        return _make_again, (type(self), *self._made_by)
-
-
-def _make_again(kind: Any, method: str, given: dict[str, Any]) -> Any:
-    return getattr(kind, method)(**given) if method else kind(**given)
-
-
-_Maker = TypeVar("_Maker", bound=Callable[..., Any])
-
-
-def _noted(maker: _Maker) -> _Maker:
-    """Notes for _Spec what an __init__ or a class method is called with. Arrays are copied: the caller may go on with them."""
-    names = inspect.signature(maker)
-
-    @functools.wraps(maker)
-    def make(first: Any, *arguments: Any, **more: Any) -> Any:
-        made = maker(first, *arguments, **more)
-        given: dict[str, Any] = {}
-        for name, value in list(names.bind(first, *arguments, **more).arguments.items())[1:]:
-            by_name = value if names.parameters[name].kind is inspect.Parameter.VAR_KEYWORD else {name: value}
-            given |= {key: np.array(one) if isinstance(one, np.ndarray) else one for key, one in by_name.items()}
-        (first if made is None else made)._made_by = ("" if made is None else maker.__name__, given)
-        return made
-    return cast(_Maker, make)
 
 
 class _Record:

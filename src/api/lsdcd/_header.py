@@ -42,7 +42,7 @@ class Header:
         found = []
         for given in names.split(","):
             star, name, count = re.match(r" ?(\*?) ?(\w+) ?(?:\[(\d+)\])?$", given).groups()    # type: ignore[union-attr]
-            one: Any = self._callbacks.get(kind) or _pointer(kind) if star else _KINDS.get(kind) or self.structs[kind]
+            one: Any = self._callbacks.get(kind) or _pointer(kind) if star else _KINDS[kind]
             found.append((name, one * int(count) if count else one))
         return found
 
