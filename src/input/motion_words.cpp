@@ -5,7 +5,6 @@
 
 #include "input/value_words.h"
 #include "wall/spec/spec_ranges.h"
-#include "wall/spec/spec_text.h"
 
 #include <algorithm>
 
@@ -30,6 +29,14 @@ Real fixed_number(Tokens &w, const char *what,
            "the displacement and its velocity in each step, or motion rotate Px Py Pz Rx Ry Rz "
            "variable v_angle v_speed");
   return w.number(what, in);
+}
+
+// What to do in place of a negative period.
+std::string other_way_text(MotionKind kind)
+{
+  const bool swings = kind == MotionKind::wiggle || kind == MotionKind::cosine;
+  return std::string("give a period above 0 and, to ") + (swings ? "begin" : "turn") +
+         " the other way, " + (swings ? "the amplitude" : "the axis") + " with the other sign";
 }
 
 Real read_period(Tokens &w, const MotionTerm &m)

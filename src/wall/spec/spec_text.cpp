@@ -119,13 +119,6 @@ std::string motion_text(const std::vector<MotionTerm> &terms, const InputNames &
   return text;
 }
 
-std::string other_way_text(MotionKind kind)
-{
-  const bool swings = kind == MotionKind::wiggle || kind == MotionKind::cosine;
-  return std::string("give a period above 0 and, to ") + (swings ? "begin" : "turn") +
-         " the other way, " + (swings ? "the amplitude" : "the axis") + " with the other sign";
-}
-
 std::string servo_text(const Servo &s, const InputNames &inputs)
 {
   if (!s.present) return "";

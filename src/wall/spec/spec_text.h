@@ -17,9 +17,6 @@ std::string placement_text(const Placement &placement);
 // "rotate 0 0 0 0 0 1 2, linear 1 0 0": kinds with their numbers; an input by its name. Empty: none.
 std::string motion_text(const std::vector<MotionTerm> &terms, const InputNames &inputs);
 
-// What to do in place of a negative period.
-std::string other_way_text(MotionKind kind);
-
 // "force z 100 vmax 0.1"; empty: none.
 std::string servo_text(const Servo &servo, const InputNames &inputs);
 
