@@ -39,8 +39,8 @@ std::string row_of(const Values &...values)
 }
 
 // What follows takes structs apart by the names of all their members: one that is new does not compile before it is decided
-// here whether saved data are of a wall with another one; members of WallSpec and MeshSpec are in the walk of
-// tests/library/wall_fields.py, their keywords in the rows of wall_words.py. Inputs are by their names (InputsText).
+// here whether saved data are of a wall with another one; the keywords of WallSpec and MeshSpec are in the rows of
+// tests/library/wall_words.py. Inputs are by their names (InputsText).
 
 template <class Model>
 std::string numbers_of(const Chosen<Model> &chosen)
@@ -252,12 +252,10 @@ void add_made(const WallSpec &wall, std::size_t k, WallParts &parts)
       {"point of the torque" + of,
        text_of(mesh.torque_about) + (mesh.torque_about_mesh ? ", which moves with it" : "")});
   parts.push_back({"mean of the fields" + of, steps_text(mesh.fields.every)});
-#define LSDCD_PLAIN_PART(field, member, kind, rule)                                                \
-  if (is_compared(OfState::rule, wall)) parts.push_back({#field + of, text_of(kind, mesh.member)});
-#define LSDCD_PART(field, member, kind, rule, ...) LSDCD_PLAIN_PART(field, member, kind, rule)
-  LSDCD_MESH_SETTINGS(LSDCD_PART, LSDCD_PLAIN_PART)
+#define LSDCD_PART(member, kind, rule, name, ...)                                                  \
+  if (is_compared(OfState::rule, wall)) parts.push_back({name + of, text_of(kind, mesh.member)});
+  LSDCD_MESH_SETTINGS(LSDCD_PART)
 #undef LSDCD_PART
-#undef LSDCD_PLAIN_PART
 }
 
 // Without periodic axes the box says how far spheres go, as rmax does.
@@ -279,13 +277,12 @@ WallParts made_parts(const Wall &wall, const PeriodicBox &box)
   WallParts parts = {{"number of meshes", std::to_string(spec.meshes.size())},
                      {"law", text_of(spec.laws)},
                      {"wear", text_of(spec.wear, spec.wear_deform)},
+                     {"grains", spec.shapes ? "of any shape" : "spheres"},
                      {"periodic box", text_of(box)}};
-#define LSDCD_PLAIN_PART(field, member, kind, rule)                                                \
-  if (is_compared(OfState::rule, spec)) parts.push_back({#field, text_of(kind, spec.member)});
-#define LSDCD_PART(field, member, kind, rule, ...) LSDCD_PLAIN_PART(field, member, kind, rule)
-  LSDCD_WALL_SETTINGS(LSDCD_PART, LSDCD_PLAIN_PART)
+#define LSDCD_PART(member, kind, rule, name, ...)                                                  \
+  if (is_compared(OfState::rule, spec)) parts.push_back({name, text_of(kind, spec.member)});
+  LSDCD_WALL_SETTINGS(LSDCD_PART)
 #undef LSDCD_PART
-#undef LSDCD_PLAIN_PART
   for (std::size_t k = 0; k < spec.meshes.size(); k++) add_made(spec, k, parts);
   for (const MeshPart &mesh : wall.meshes()) {
     const MeshReport &report = mesh.grid.report();

@@ -211,15 +211,14 @@ std::string first_value(const std::string &values)
   return values.substr(0, values.find(' '));
 }
 
-#define LSDCD_KEYWORD(field, member, kind, rule, name, values, unit, range, fallback, help)        \
+#define LSDCD_KEYWORD(member, kind, rule, name, values, unit, range, fallback, help)               \
   {name, values, unit, range, fallback, help, [](Tokens &w, WallCommand &s) {                      \
      read_setting(kind, w, first_value(values), s.wall.member);                                    \
    }},
-#define LSDCD_MESH_KEYWORD(field, member, kind, rule, name, values, unit, range, fallback, help)   \
+#define LSDCD_MESH_KEYWORD(member, kind, rule, name, values, unit, range, fallback, help)          \
   {name, values, unit, range, fallback, help, nullptr, [](Tokens &w, MeshSpec &s, InputNames &) {  \
      read_setting(kind, w, first_value(values), s.member);                                         \
    }},
-#define LSDCD_NO_KEYWORD(...)
 
 const Keyword kKeywords[] = {
     {"mesh", "FILE", "", "STL, OBJ, PLY, OFF", "",
@@ -321,12 +320,11 @@ const Keyword kKeywords[] = {
      read_cut},
 };
 
-const Keyword kSettings[] = {LSDCD_WALL_SETTINGS(LSDCD_KEYWORD, LSDCD_NO_KEYWORD)
-                                 LSDCD_MESH_SETTINGS(LSDCD_MESH_KEYWORD, LSDCD_NO_KEYWORD)};
+const Keyword kSettings[] = {LSDCD_WALL_SETTINGS(LSDCD_KEYWORD)
+                                 LSDCD_MESH_SETTINGS(LSDCD_MESH_KEYWORD)};
 
 #undef LSDCD_KEYWORD
 #undef LSDCD_MESH_KEYWORD
-#undef LSDCD_NO_KEYWORD
 
 }    // namespace
 

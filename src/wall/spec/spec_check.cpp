@@ -16,32 +16,9 @@ namespace lsdcd {
 
 namespace {
 
-// A member of a spec by its names.
-struct Member {
-  const char *field;    // of lsdcd_wall_mesh, or of lsdcd_wall_spec
-  const char *keyword;
-};
-
-constexpr Member kMeshes = {"n_meshes", "mesh"}, kMesh = {"mesh", "mesh"}, kLaw = {"law", "law"},
-                 kTypeLaws = {"type_laws", "law"}, kMotion = {"motions", "motion"},
-                 kServo = {"servo", "servo"}, kPosed = {"posed_by_caller", "motion"},
-                 kBody = {"body", "body"}, kCoat = {"body.coat", "body"},
-                 kNodes = {"nodes_by_caller", "nodes"}, kPressure = {"pressure", "pressure"},
-                 kSurface = {"surface_velocity", "surface_vel"},
-                 kTemperature = {"temperature", "temperature"},
-                 kWearFactor = {"wear_factor", "wear_factor"},
-                 kWearDeform = {"wear_deform_every", "wear"}, kCache = {"cache", "cache"},
-                 kFields = {"fields", "mesh_fields"}, kStl = {"stl", "mesh_stl"},
-                 kSpectrum = {"spectrum", "impact_spectrum"},
-                 kFrictionHeat = {"friction_heat", "friction_heat"},
-                 kImpacts = {"impact_speed", "impacts"}, kNearest = {"nearest", "nearest"},
-                 kSide = {"side", "side"}, kDevice = {"device", "device"},
-                 kEnergy = {"energy", "energy"},
-                 kTorquePoint = {"torque_about_moves", "torque_about"};
-
-// What of a mesh does not go with the rest of its wall. The text is about the member, and says what to do.
+// What of a mesh does not go with the rest of its wall. The text is about the value of the keyword, and says what to do.
 struct MeshRule {
-  Member member;
+  const char *keyword;
   bool (*breaks)(const WallSpec &wall, const MeshSpec &mesh);
   const char *text;
 };
@@ -52,77 +29,69 @@ bool is_driven(const MeshSpec &mesh)
 }
 
 const MeshRule kMeshRules[] = {
-    {kTemperature,
+    {"temperature",
      [](const WallSpec &w, const MeshSpec &m) { return w.law().has_heat() && !m.has_temperature; },
      "the temperature is missing, which the sub-model heat needs: give the mesh one"},
-    {kTemperature,
+    {"temperature",
      [](const WallSpec &w, const MeshSpec &m) { return !w.law().has_heat() && m.has_temperature; },
      "a temperature is given, but no sub-model heat uses it: leave it out, or give the law one"},
-    {kWearFactor,
+    {"wear_factor",
      [](const WallSpec &w, const MeshSpec &m) { return !w.wears() && m.wear_factor != 1; },
      "a factor is given, but nothing wears: leave it out, or give the wall a model of wear"},
-    {kPressure,
+    {"pressure",
      [](const WallSpec &, const MeshSpec &m) {
        return !m.has_nodes && (m.pressure != 0 || m.pressure_input != kNoInput);
      },
      "it acts on nodes, and the mesh has none: leave it out, or let nodes move the mesh"},
-    {kNodes,
+    {"nodes",
      [](const WallSpec &, const MeshSpec &m) {
        return m.has_nodes && (m.motion.any() || m.body.present);
      },
      "its nodes alone move such a mesh: leave its motion, servo, pose or body out"},
-    {kPosed,
+    {"motion",
      [](const WallSpec &, const MeshSpec &m) { return m.motion.is_posed() && is_driven(m); },
      "the poses of the program alone move such a mesh: leave its motion and servo out"},
-    {kBody,
+    {"body",
      [](const WallSpec &, const MeshSpec &m) {
        return m.body.present && (is_driven(m) || m.motion.is_posed());
      },
      "a body moves by what acts on it: leave out its motion, wiggle, servo or pose"},
-    {kCoat,
+    {"body",
      [](const WallSpec &w, const MeshSpec &m) {
        return m.body.present && m.body.coat.present && w.meshes.size() == 1;
      },
      "its coat feels other meshes, and the wall has no other mesh: leave the coat out"},
-    {kCoat,
+    {"body",
      [](const WallSpec &w, const MeshSpec &m) {
        return m.body.present && m.body.coat.present && w.has_nodes();
      },
      "its coat cannot feel meshes whose nodes move: leave out the coat, or the nodes"},
-    {kCache,
+    {"cache",
      [](const WallSpec &, const MeshSpec &m) { return m.has_nodes && !m.cache_file.empty(); },
      "the grid of a mesh is made again as its nodes move: leave the file out"},
-    {kTorquePoint,
+    {"torque_about",
      [](const WallSpec &, const MeshSpec &m) { return m.has_nodes && m.torque_about_mesh; },
      "a mesh whose nodes move has no frame in which a point could stay: give a point of the box"},
-    {kNodes, [](const WallSpec &w, const MeshSpec &m) { return m.has_nodes && w.nearest > 0; },
+    {"nodes", [](const WallSpec &w, const MeshSpec &m) { return m.has_nodes && w.nearest > 0; },
      "a mesh whose nodes move has no lists of the nearest primitives: leave nearest out"},
-    {kNodes, [](const WallSpec &w, const MeshSpec &m) { return m.has_nodes && w.recedes(m); },
+    {"nodes", [](const WallSpec &w, const MeshSpec &m) { return m.has_nodes && w.recedes(m); },
      "wear moves this mesh, and its nodes are moved by others: leave one of them out, or give the "
      "mesh a wear factor by which it does not wear"},
-    {kSpectrum,
+    {"impact_spectrum",
      [](const WallSpec &w, const MeshSpec &m) {
        return m.spectrum.every > 0 && !(w.impact_speed > 0);
      },
      "no impacts are recorded, of which it would be: give the wall the least speed of an impact, "
      "or leave "
      "it out"},
-    {kBody, [](const WallSpec &w, const MeshSpec &m) { return m.body.present && w.recedes(m); },
+    {"body", [](const WallSpec &w, const MeshSpec &m) { return m.body.present && w.recedes(m); },
      "wear moves this mesh, and the mass and centre of a body are those of its shape: leave one of "
      "them out, or give the mesh a wear factor by which it does not wear"},
 };
 
-// `of`: what the field is in.
-[[noreturn]] void refuse(SpecNames names, const std::string &of, const Member &member,
-                         const std::string &text)
-{
-  if (names == SpecNames::fields) throw InputError("`" + of + member.field + "`: " + text);
-  throw InputError("in '" + std::string(member.keyword) + "', " + text);
-}
-
 class SpecCheck {
  public:
-  SpecCheck(const WallSpec &wall, SpecNames names) : wall_(wall), names_(names) {}
+  explicit SpecCheck(const WallSpec &wall) : wall_(wall) {}
 
   void check() const
   {
@@ -132,47 +101,49 @@ class SpecCheck {
       check_inputs(k);
       check_laws(k);
       for (const MeshRule &rule : kMeshRules)
-        if (rule.breaks(wall_, mesh)) refuse(k, rule.member, rule.text);
+        if (rule.breaks(wall_, mesh)) refuse(k, rule.keyword, rule.text);
       try {
         check_body(mesh.body);
       } catch (const InputError &e) {
-        refuse(k, kBody, e.what());
+        refuse(k, "body", e.what());
       }
       for (std::size_t i = 0; i < k; i++) check_apart(i, k);
     }
   }
 
  private:
-  // "meshes[1]", or "mesh 2 'lid.stl'".
+  // "mesh 2 'lid.stl'"
   std::string name_of(std::size_t k) const
   {
-    if (names_ == SpecNames::fields) return "meshes[" + std::to_string(k) + "]";
     const std::string &name = wall_.meshes[k].name;
     return "mesh " + std::to_string(k + 1) + (name.empty() ? "" : " '" + name + "'");
   }
-  [[noreturn]] void refuse(const Member &member, const std::string &text) const
+  [[noreturn]] static void refuse(const std::string &keyword, const std::string &text)
   {
-    lsdcd::refuse(names_, "", member, text);
+    throw InputError("in '" + keyword + "', " + text);
   }
-  [[noreturn]] void refuse(std::size_t k, const Member &member, const std::string &text) const
+  [[noreturn]] void refuse(std::size_t k, const std::string &keyword, const std::string &text) const
   {
-    if (names_ == SpecNames::fields) lsdcd::refuse(names_, name_of(k) + ".", member, text);
-    refuse(member, (wall_.meshes.size() > 1 ? "of " + name_of(k) + ": " : "") + text);
+    refuse(keyword, (wall_.meshes.size() > 1 ? "of " + name_of(k) + ": " : "") + text);
   }
 
   void check_wall() const
   {
     if (wall_.laws.empty() || !wall_.laws.front().is_of_all())
-      refuse(kLaw, "the wall's first law is not of all types; give a law of all types first");
-    check_mesh_count(wall_.meshes.size(), names_);
+      refuse("law", "the wall's first law is not of all types; give a law of all types first");
+    const std::size_t n = wall_.meshes.size();
+    if (n < 1 || n > kMaxMeshes)
+      refuse("mesh", "there are " + std::to_string(n) + " meshes, and a wall has 1 to " +
+                         std::to_string(kMaxMeshes) +
+                         ": join those that never come near one another, or make another wall");
     if (wall_.wear_deform.every > 0 && !wall_.wears())
-      refuse(kWearDeform,
+      refuse("wear",
              "wear should move the meshes, but nothing wears: leave that out, or give the wall a "
              "model of wear");
     if (wall_.friction_heat > 0 && !(wall_.energy && wall_.law().has_heat()))
-      refuse(kFrictionHeat, "the heat of friction comes from the energy balance, and goes where "
-                            "the law brings heat: give the wall "
-                            "energy and the sub-model heat, too, or leave it out");
+      refuse("friction_heat", "the heat of friction comes from the energy balance, and goes where "
+                              "the law brings heat: give the wall "
+                              "energy and the sub-model heat, too, or leave it out");
     if (wall_.shapes) check_shapes();
   }
 
@@ -180,26 +151,27 @@ class SpecCheck {
   void check_shapes() const
   {
     const std::string why = why_not_for_shapes(wall_.law());
-    if (!why.empty()) refuse(kLaw, why);
+    if (!why.empty()) refuse("law", why);
     if (wall_.impact_speed > 0)
-      refuse(kImpacts, "impacts of ellipsoids are not recorded: leave it out");
+      refuse("impacts", "impacts of ellipsoids are not recorded: leave it out");
     if (wall_.side != Side::both)
-      refuse(kSide, "ellipsoids have a wall with both sides alone: leave it out");
+      refuse("side", "ellipsoids have a wall with both sides alone: leave it out");
     if (wall_.device == Device::cuda)
-      refuse(kDevice, "the wall has ellipsoids on a CPU alone: use cpu or auto");
+      refuse("device", "the wall has ellipsoids on a CPU alone: use cpu or auto");
     if (wall_.nearest > 0)
-      refuse(kNearest,
+      refuse("nearest",
              "contacts of ellipsoids are found without lists, and none is missed: leave it out");
     if (wall_.has_nodes())
-      refuse(kNodes, "ellipsoids cannot have a mesh whose nodes move: leave it out");
+      refuse("nodes", "ellipsoids cannot have a mesh whose nodes move: leave it out");
   }
 
-  void check_inputs(std::size_t k, const Member &member, const int *input, std::size_t n) const
+  void check_inputs(std::size_t k, const std::string &keyword, const int *input,
+                    std::size_t n) const
   {
     const int n_inputs = static_cast<int>(wall_.inputs.size());
     for (std::size_t i = 0; i < n; i++)
       if (input[i] != kNoInput && (input[i] < 0 || input[i] >= n_inputs))
-        refuse(k, member,
+        refuse(k, keyword,
                "there is no input " + std::to_string(input[i]) + ", as the wall has " +
                    std::to_string(n_inputs) +
                    ", which count from 0: add its name to them, or use kNoInput");
@@ -208,15 +180,15 @@ class SpecCheck {
   {
     const MeshSpec &mesh = wall_.meshes[k];
     for (const MotionTerm &term : mesh.motion.terms())
-      check_inputs(k, kMotion, term.input, std::size(term.input));
-    check_inputs(k, kServo, &mesh.motion.servo().target_input, 1);
-    check_inputs(k, kSurface, mesh.surface_input, std::size(mesh.surface_input));
-    check_inputs(k, kTemperature, &mesh.temperature_input, 1);
-    check_inputs(k, kPressure, &mesh.pressure_input, 1);
+      check_inputs(k, "motion", term.input, std::size(term.input));
+    check_inputs(k, "servo", &mesh.motion.servo().target_input, 1);
+    check_inputs(k, "surface_vel", mesh.surface_input, std::size(mesh.surface_input));
+    check_inputs(k, "temperature", &mesh.temperature_input, 1);
+    check_inputs(k, "pressure", &mesh.pressure_input, 1);
     const BodySpec &body = mesh.body;
-    check_inputs(k, kBody, &body.motor_input, 1);
-    check_inputs(k, kBody, body.load_input, std::size(body.load_input));
-    check_inputs(k, kBody, body.moment_input, std::size(body.moment_input));
+    check_inputs(k, "body", &body.motor_input, 1);
+    check_inputs(k, "body", body.load_input, std::size(body.load_input));
+    check_inputs(k, "body", body.moment_input, std::size(body.moment_input));
   }
 
   // Only numbers differ between the laws of a wall.
@@ -224,7 +196,7 @@ class SpecCheck {
   {
     for (const LawOfTypes &row : wall_.meshes[k].laws)
       if (rows_of(row.law) != rows_of(wall_.law()))
-        refuse(k, row.is_of_all() ? kLaw : kTypeLaws,
+        refuse(k, "law",
                "it has the sub-models " + sub_models_text(row.law) + ", and the wall has " +
                    sub_models_text(wall_.law()) +
                    ": only the numbers may differ; put the mesh into a wall of its own, or give "
@@ -236,42 +208,32 @@ class SpecCheck {
   {
     const MeshSpec &one = wall_.meshes[i], &other = wall_.meshes[k];
     if (are_one_mesh(wall_, one, wall_, other))
-      refuse(k, kMesh,
+      refuse(k, "mesh",
              "it is that of " + name_of(i) +
                  " at the same place, so every contact would count twice: leave one out, or "
                  "move it");
     const struct {
-      Member member;
+      const char *keyword;
       const std::string &name, &of_other;
-    } files[] = {{kCache, one.cache_file, other.cache_file},
-                 {kFields, one.fields.name, other.fields.name},
-                 {kSpectrum, one.spectrum.name, other.spectrum.name},
-                 {kStl, one.stl.name, other.stl.name}};
+    } files[] = {{"cache", one.cache_file, other.cache_file},
+                 {"mesh_fields", one.fields.name, other.fields.name},
+                 {"impact_spectrum", one.spectrum.name, other.spectrum.name},
+                 {"mesh_stl", one.stl.name, other.stl.name}};
     for (const auto &file : files)
       if (!file.name.empty() && file.name == file.of_other)
-        refuse(k, file.member,
+        refuse(k, file.keyword,
                name_of(i) + " has the same file '" + file.name +
                    "', so one would overwrite the other: give each a name of its own");
   }
 
   const WallSpec &wall_;
-  const SpecNames names_;
 };
 
 }    // namespace
 
-void check_mesh_count(std::size_t n, SpecNames names)
+void check_spec(const WallSpec &wall)
 {
-  if (n < 1 || n > kMaxMeshes)
-    refuse(names, "", kMeshes,
-           "there are " + std::to_string(n) + " meshes, and a wall has 1 to " +
-               std::to_string(kMaxMeshes) +
-               ": join those that never come near one another, or make another wall");
-}
-
-void check_spec(const WallSpec &wall, SpecNames names)
-{
-  SpecCheck(wall, names).check();
+  SpecCheck(wall).check();
 }
 
 }    // namespace lsdcd

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The ranges of single numbers of a WallSpec, which words of scripts and structs of programs give alike. Units are in
-// wall_spec.h. A number that may be left out is 0 in a struct, which its reader knows.
+// The ranges of single numbers of a WallSpec. Units are in wall_spec.h.
 #pragma once
 
 #include "base/input_words.h"
