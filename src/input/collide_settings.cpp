@@ -5,7 +5,6 @@
 
 #include "base/input_words.h"
 #include "input/keywords.h"
-#include "wall/spec/spec_ranges.h"
 #include "wall/spec/spec_words.h"
 
 namespace lsdcd {
@@ -31,7 +30,7 @@ bool read_word(const std::string &word, Tokens &w, CollideSettings &s)
     s.atoms_file = w.take();
   } else if (word == "grid") {
     w.set_context("grid", "grid L | auto");
-    s.grid_length = w.number_or("auto", 0, "L", kCellRange);
+    s.grid_length = w.number_or("auto", 0, "L", {kAboveZero, Tokens::kHuge});
   } else if (word == "nearest") {
     w.set_context("nearest", "nearest N | all");
     s.nearest = read_nearest(w);

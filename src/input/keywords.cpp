@@ -4,6 +4,7 @@
 #include "input/keywords.h"
 
 #include "base/atomic_file.h"
+#include "grid/triangle_grid.h"
 #include "input/body_words.h"
 #include "input/law_words.h"
 #include "input/motion_words.h"
@@ -11,16 +12,19 @@
 #include "input/value_words.h"
 #include "output/file_series.h"
 #include "wall/spec/settings.h"
-#include "wall/spec/spec_ranges.h"
 #include "wall/spec/spec_words.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace lsdcd {
 
 namespace {
+
+// Of files, means and worn meshes that are due every so many steps.
+constexpr NumberRange kStepsRange = {1, std::numeric_limits<int>::max()};
 
 void read_mesh(Tokens &w, MeshSpec &s, InputNames &)
 {
@@ -103,16 +107,15 @@ void read_wear(Tokens &w, WallCommand &s)
 {
   s.wall.wear.model =
       static_cast<WearModel>(1 + w.choice({std::begin(kWearWords) + 1, std::end(kWearWords)}));
-  s.wall.wear.per_work = w.number("K", kWearCoefficientRange);
-  if (s.wall.wear.model == WearModel::archard)
-    s.wall.wear.per_work /= w.number("H", kHardnessRange);
+  s.wall.wear.per_work = w.number("K", 0);
+  if (s.wall.wear.model == WearModel::archard) s.wall.wear.per_work /= w.number("H", kAboveZero);
   if (w.done() || w.peek() != "deform") return;
   w.take();
   if (w.done() || w.take() != "every") w.fail("'every N' is missing");
   s.wall.wear_deform.every = static_cast<int>(w.whole("N", kStepsRange));
   if (w.done() || w.peek() != "factor") return;
   w.take();
-  s.wall.wear_deform.factor = w.number("F", kWearDeformFactorRange);
+  s.wall.wear_deform.factor = w.number("F", kAboveZero);
 }
 
 FileEvery read_file_every(Tokens &w, const std::string &end)
@@ -188,7 +191,7 @@ void read_setting(const Kind &kind, Tokens &w, const std::string &what, T &to)
   } else if constexpr (std::is_same_v<Kind, FlagSetting>) {
     to = true;
   } else if constexpr (std::is_same_v<Kind, LengthSetting>) {
-    to = w.number_or("auto", 0, what.c_str(), kAbove0);
+    to = w.number_or("auto", 0, what.c_str(), {kAboveZero, Tokens::kHuge});
   } else if constexpr (std::is_same_v<Kind, NearestSetting>) {
     to = read_nearest(w);
   } else if constexpr (std::is_same_v<Kind, MemorySetting>) {
@@ -196,12 +199,12 @@ void read_setting(const Kind &kind, Tokens &w, const std::string &what, T &to)
   } else if constexpr (std::is_same_v<Kind, StepsSetting>) {
     to = static_cast<T>(w.whole(what.c_str(), kStepsRange));
   } else if constexpr (std::is_same_v<Kind, ShareSetting>) {
-    to = w.number(what.c_str(), kShareRange);
+    to = w.number(what.c_str(), 0, 1);
   } else if constexpr (std::is_same_v<Kind, SpeedSetting>) {
-    to = w.number(what.c_str(), kAbove0);
+    to = w.number(what.c_str(), kAboveZero);
   } else {
     static_assert(std::is_same_v<Kind, FactorSetting>);
-    to = w.number(what.c_str(), kWearFactorRange);
+    to = w.number(what.c_str(), 0);
   }
 }
 
@@ -352,7 +355,7 @@ std::string syntax_of(const Keyword &row)
 
 int read_nearest(Tokens &w)
 {
-  const Real n = w.number_or("all", 0, "N", kNearestRange);
+  const Real n = w.number_or("all", 0, "N", {1, kMaxNearest});
   if (std::floor(n) != n) w.fail("N must be a whole number");
   return static_cast<int>(n);
 }

@@ -4,7 +4,6 @@
 #include "input/motion_words.h"
 
 #include "input/value_words.h"
-#include "wall/spec/spec_ranges.h"
 
 #include <algorithm>
 
@@ -44,7 +43,7 @@ Real read_period(Tokens &w, const MotionTerm &m)
   Real value = 0;
   if (!w.done() && is_number(w.peek(), &value) && value < 0)
     w.fail("the period = " + w.peek() + " is below 0: " + other_way_text(m.kind));
-  return fixed_number(w, "the period", kPeriodRange);
+  return fixed_number(w, "the period", {kAboveZero, Tokens::kHuge});
 }
 
 Vec3 fixed_vector(Tokens &w, const char *x, const char *y, const char *z)

@@ -4,7 +4,6 @@
 #include "input/servo_words.h"
 
 #include "input/value_words.h"
-#include "wall/spec/spec_ranges.h"
 
 #include <algorithm>
 #include <string>
@@ -37,7 +36,7 @@ void read_limits(Tokens &w, Servo &s)
   if (s.lo > s.hi)
     w.fail("the limits " + number_text(s.lo) + " " + number_text(s.hi) +
            " are reversed: the lower one comes first");
-  if (s.lo > kServoLoRange.most || s.hi < kServoHiRange.least)
+  if (s.lo > 0 || s.hi < 0)
     w.fail("the limits " + number_text(s.lo) + " " + number_text(s.hi) +
            " do not contain 0, which is where the servo begins");
 }
@@ -55,8 +54,8 @@ Servo read_one_servo(Tokens &w, InputNames &inputs)
     if (word != "vmax" && word != "gain" && word != "limits") break;
     if (std::count(seen.begin(), seen.end(), word)) w.fail(word + " is given twice");
     seen.push_back(w.take());
-    if (word == "vmax") s.max_speed = w.number("vmax", kServoSpeedRange);
-    if (word == "gain") s.max_gain = w.number("the gain", kServoGainRange);
+    if (word == "vmax") s.max_speed = w.number("vmax", kAboveZero);
+    if (word == "gain") s.max_gain = w.number("the gain", kAboveZero);
     if (word == "limits") read_limits(w, s);
   }
   if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one more than expected");

@@ -5,7 +5,6 @@
 // these. What takes more, as lists, vectors, motions and values that may be variables, is read by hand.
 #pragma once
 
-#include "wall/spec/spec_ranges.h"
 #include "wall/spec/spec_words.h"
 #include "wall/spec/wall_spec.h"
 

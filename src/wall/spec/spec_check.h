@@ -9,7 +9,7 @@
 namespace lsdcd {
 
 // Throws InputError, which names the mesh and the keyword, where a wall cannot be made of this. That each number is in its own
-// range (spec_ranges.h) is for those who read it.
+// range is for those who read it.
 void check_spec(const WallSpec &wall);
 
 }    // namespace lsdcd
