@@ -521,6 +521,20 @@ LSDCD_API int lsdcd_wall_change(lsdcd_wall *wall, const char *words, const lsdcd
 /* The value of v_NAME in the words from the next step on, the same on all processes; `name` is without v_. A step whose words read one that has
  * none is refused. Alone. Own. */
 LSDCD_API int lsdcd_wall_set_input(lsdcd_wall *wall, const char *name, double value);
+/* A keyword of words, as doc/fix_wall_lsdcd.rst explains it. Texts live as long as the library. */
+typedef struct lsdcd_keyword_facts {
+  size_t size;          /* of this struct; set by the caller */
+  const char *name;     /* "scale" */
+  const char *values;   /* what stands behind it: "s | sx sy sz" */
+  const char *unit;     /* "length"; empty: none */
+  const char *range;    /* "> 0"; empty: any */
+  const char *fallback; /* what holds without it; empty: it is required */
+  const char *meaning;
+  int of_mesh; /* 1: it is of the mesh before it; 0: of the wall */
+  int repeats; /* 1: it may be given more than once */
+} lsdcd_keyword_facts;
+/* The facts of keyword number k, from 0, of all that words may have; LSDCD_ERROR_ARGUMENT: there are not so many. Any. */
+LSDCD_API int lsdcd_keyword_get_facts(size_t k, lsdcd_keyword_facts *facts);
 /* The number of a mesh, from 0, by its name. LSDCD_ERROR_ARGUMENT: none is called so, or several are. Alone. Own. */
 LSDCD_API int lsdcd_wall_get_mesh(lsdcd_wall *wall, const char *name, int *mesh);
 

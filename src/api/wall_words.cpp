@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// lsdcd_wall_*: a wall is made and changed by the words of the fix.
+// lsdcd_wall_*: a wall is made and changed by the words of the fix; the keywords of these words.
 #include "api/objects.h"
 #include "api/refusals.h"
 #include "api/wall_handle.h"
 #include "base/input_words.h"
+#include "input/keywords.h"
 #include "input/program_words.h"
 #include "input/wall_change.h"
 #include "input/wall_command.h"
@@ -170,6 +171,27 @@ int lsdcd_wall_change(lsdcd_wall *wall, const char *words, const lsdcd_value *va
           change_wall(*wall->in, arguments, {wall->number, wall->dt}, &read));
       if (taken == 0) throw InputError("'" + arguments[0] + "' is not expected: write " + syntax);
     });
+  });
+}
+
+int lsdcd_keyword_get_facts(size_t k, lsdcd_keyword_facts *facts)
+{
+  return guard([&] {
+    lsdcd_keyword_facts f = checked(facts, "lsdcd_keyword_facts");
+    const std::vector<Keyword> &all = program_keywords();
+    if (k >= all.size())
+      refuse_field("k", std::to_string(k),
+                   "there are " + std::to_string(all.size()) + " keywords, from 0");
+    const Keyword &row = all[k];
+    f.name = row.name;
+    f.values = row.values;
+    f.unit = row.unit;
+    f.range = row.range;
+    f.fallback = row.fallback;
+    f.meaning = row.help;
+    f.of_mesh = row.read_of_mesh != nullptr;
+    f.repeats = row.repeats();
+    copy_out(f, facts);
   });
 }
 

@@ -182,6 +182,11 @@ void read_cut(Tokens &w, WallCommand &s)
   s.picture.cut_offset = w.number("the offset");
 }
 
+void read_device(Tokens &w, WallCommand &s)
+{
+  s.wall.device = static_cast<Device>(w.choice(all_words(kDeviceWords)));
+}
+
 // Reads the values of a keyword as its row in wall/spec/settings.h says. `what`: what messages call them.
 template <class Kind, class T>
 void read_setting(const Kind &kind, Tokens &w, const std::string &what, T &to)
@@ -223,6 +228,10 @@ std::string first_value(const std::string &values)
      read_setting(kind, w, first_value(values), s.member);                                         \
    }},
 
+constexpr char kMoves[] =
+    "moves the mesh, with the syntax of fix move and more; later motions carry earlier ones";
+constexpr char kDrawsAlone[] = "LAMMPS alone draws pictures";
+
 const Keyword kKeywords[] = {
     {"mesh", "FILE", "", "STL, OBJ, PLY, OFF", "",
      "the wall; more of them, each with its own keywords after it", nullptr, read_mesh},
@@ -238,9 +247,8 @@ const Keyword kKeywords[] = {
      [](Tokens &w, MeshSpec &s, InputNames &) { s.weld = w.number("the tolerance", 0); }},
     {"cache", "FILE | none", "", "", "none",
      "file that keeps the grid, so the next start need not build it", nullptr, read_cache},
-    {"motion", kMotionSyntax, "velocity, length, time", "period > 0", "none",
-     "moves the mesh, with the syntax of fix move and more; later motions carry earlier ones",
-     nullptr, read_motion},
+    {"motion", kMotionSyntax, "velocity, length, time", "period > 0", "none", kMoves, nullptr,
+     read_motion},
     {"wiggle", "x|y|z amplitude period", "length, time", "period > 0", "none",
      "the mesh moves as fix wall/gran's: by A - A cos(2 pi t/period)", nullptr, read_wiggle},
     {"servo", kServoSyntax, "force or torque, velocity or 1/time, length or radians",
@@ -306,21 +314,32 @@ const Keyword kKeywords[] = {
      "the point that f_ID[4] to f_ID[6] are about; mesh: it moves with the mesh and was at x y z "
      "(0 0 0) before",
      nullptr, read_torque_about},
-    {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
-     [](Tokens &w, WallCommand &s) {
-       s.wall.device = static_cast<Device>(w.choice(all_words(kDeviceWords)));
-     }},
+    {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed", read_device},
     {"temperature", "T | v_NAME", "temperature", "", "none",
      "of the wall, for the sub-model heat; v_NAME: an equal-style variable", nullptr,
      read_temperature},
     {"contacts", "", "", "", "off", "per-atom array of 8 columns (9 with heat), as fix wall/gran's",
-     [](Tokens &, WallCommand &s) { s.wall.contacts = true; }},
+     [](Tokens &, WallCommand &s) { s.wall.contacts = true; }, nullptr, "write each_contact"},
     {"draw", "edges | faces | contours [type]", "", "", "edges 1",
      "what dump image shows, in the colour of an atom type: fix ID type DIAMETER 0 for lines, "
      "fix ID type 1 0 for faces",
-     read_draw},
+     read_draw, nullptr, kDrawsAlone},
     {"cut", "nx ny nz d", "", "n not 0 0 0", "none", "dump image leaves out the part with n.x > d",
-     read_cut},
+     read_cut, nullptr, kDrawsAlone},
+};
+
+const std::string kMotionOfProgram = std::string("caller | ") + kMotionSyntax;
+
+// Keywords that only a program has, or with values of its own.
+const Keyword kOfPrograms[] = {
+    {"motion", kMotionOfProgram.c_str(), "velocity, length, time", "period > 0", "none", kMoves,
+     nullptr, read_motion},
+    {"nodes", "caller", "", "", "none",
+     "the program moves the vertices of the mesh, which the spheres push", nullptr, read_nodes},
+    {"device", "auto | cpu | cuda", "", "", "cpu",
+     "where wall forces are computed; of arrays on a GPU it is not said", read_device},
+    {"shapes", "", "", "", "off", "grains may be ellipsoids and superellipsoids",
+     [](Tokens &, WallCommand &s) { s.wall.shapes = true; }},
 };
 
 const Keyword kSettings[] = {LSDCD_WALL_SETTINGS(LSDCD_KEYWORD)
@@ -339,6 +358,31 @@ const std::vector<Keyword> &keywords()
     return rows;
   }();
   return all;
+}
+
+const std::vector<Keyword> &program_keywords()
+{
+  static const std::vector<Keyword> all = [] {
+    std::vector<Keyword> rows;
+    for (const Keyword &row : keywords())
+      if (!row.answer_to_program) rows.push_back(row);
+    for (const Keyword &own : kOfPrograms) {
+      const Keyword *const same = find_keyword(rows, own.name);
+      if (same)
+        rows[static_cast<std::size_t>(same - rows.data())] = own;
+      else
+        rows.push_back(own);
+    }
+    return rows;
+  }();
+  return all;
+}
+
+const Keyword *find_keyword(const std::vector<Keyword> &rows, const std::string &name)
+{
+  for (const Keyword &row : rows)
+    if (name == row.name) return &row;
+  return nullptr;
 }
 
 bool Keyword::repeats() const

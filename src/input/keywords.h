@@ -24,11 +24,17 @@ struct Keyword {
   void (*read)(Tokens &, WallCommand &);    // null: of a mesh
   // Variables become inputs. Null: of the wall.
   void (*read_of_mesh)(Tokens &, MeshSpec &, InputNames &inputs) = nullptr;
+  // What a program that writes it is told. Null: it is no keyword of scripts alone.
+  const char *answer_to_program = nullptr;
 
   bool repeats() const;    // may it be given more than once?
 };
 
 const std::vector<Keyword> &keywords();
+// Returns the keywords of a program's words: those of scripts, some with other values, but for those of scripts alone, and its own.
+const std::vector<Keyword> &program_keywords();
+// Returns the row of a keyword; null: there is none.
+const Keyword *find_keyword(const std::vector<Keyword> &rows, const std::string &name);
 std::string syntax_of(const Keyword &row);
 
 // Reads the values of a word that all commands with a mesh share: mesh, scale, rotate, move, weld. False:

@@ -46,9 +46,8 @@ bool is_any(const std::string &word, const std::vector<std::string> &names)
 // Does the word begin what may follow the material?
 bool is_behind(const std::string &word)
 {
-  const std::vector<Keyword> &all = keywords();
-  return is_any(word, granular_families()) ||
-         std::any_of(all.begin(), all.end(), [&](const Keyword &k) { return word == k.name; });
+  return is_any(word, granular_families()) || find_keyword(keywords(), word) ||
+         find_keyword(program_keywords(), word);
 }
 
 // Errors of what a core function checks get the words around it.

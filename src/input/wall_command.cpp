@@ -99,29 +99,14 @@ std::string answer_to(const std::string &word, bool granular)
   return "";
 }
 
-struct OfScripts {
-  const char *word;
-  const char *answer;    // to a program
-};
-
-constexpr OfScripts kOfScripts[] = {{"contacts", "write each_contact"},
-                                    {"draw", "LAMMPS alone draws pictures"},
-                                    {"cut", "LAMMPS alone draws pictures"}};
-
-// Returns the row of a keyword that LAMMPS alone has; null: it is none.
-const OfScripts *of_scripts(const std::string &word)
-{
-  for (const OfScripts &row : kOfScripts)
-    if (word == row.word) return &row;
-  return nullptr;
-}
-
-[[noreturn]] void refuse_keyword(const std::string &word, const std::vector<std::string> &names,
-                                 bool granular, bool of_program)
+[[noreturn]] void refuse_keyword(const std::string &word, const std::vector<Keyword> &rows,
+                                 bool granular)
 {
   const std::string wrong = "'" + word + "' is not a keyword";
   const std::string answer = answer_to(word, granular);
   if (!answer.empty()) throw InputError(wrong + " here: " + answer);
+  std::vector<std::string> names;
+  for (const Keyword &row : rows) names.push_back(row.name);
   std::vector<std::string> known = granular_families();
   known.insert(granular ? known.end() : known.begin(), names.begin(), names.end());
   const std::string near = nearest(word, known);
@@ -129,22 +114,21 @@ const OfScripts *of_scripts(const std::string &word)
   if (is_like(word, near)) {
     const std::string of_family = granular || row == names.end() ? answer_to(near, granular) : "";
     throw InputError(wrong + "; the nearest is '" +
-                     (of_family.empty() ? syntax_of(keywords()[row - names.begin()]) + "'"
+                     (of_family.empty() ? syntax_of(rows[row - names.begin()]) + "'"
                                         : near + "': " + of_family));
   }
   std::string all;
-  for (const std::string &name : names)
-    if (!of_program || !of_scripts(name)) all += (all.empty() ? "" : ", ") + name;
-  throw InputError(wrong + "; those are " + all + (of_program ? ", shapes" : ""));
+  for (const std::string &name : names) all += (all.empty() ? "" : ", ") + name;
+  throw InputError(wrong + "; those are " + all);
 }
 
 // A keyword of a mesh belongs to the last mesh before it. If there is one mesh, it may also stand before
 // that.
 void read_keywords(Tokens &w, WallCommand &command, bool granular, bool of_program)
 {
-  std::vector<std::string> seen, seen_of_mesh, names;
+  const std::vector<Keyword> &rows = of_program ? program_keywords() : keywords();
+  std::vector<std::string> seen, seen_of_mesh;
   std::string early;    // the first keyword of a mesh before any
-  for (const Keyword &row : keywords()) names.push_back(row.name);
   std::vector<MeshSpec> &meshes = command.wall.meshes;
   meshes.resize(1);
   while (!w.done()) {
@@ -153,15 +137,15 @@ void read_keywords(Tokens &w, WallCommand &command, bool granular, bool of_progr
       read_material_of_mesh(w, meshes.size() - 1, meshes.back().file, command.materials);
       continue;
     }
-    const OfScripts *const alone = of_program ? of_scripts(word) : nullptr;
-    if (alone) throw InputError("'" + word + "' is a keyword of scripts: " + alone->answer);
-    if (of_program && word == "shapes" && !command.wall.shapes) {
-      command.wall.shapes = true;
-      continue;
+    const Keyword *const found = find_keyword(rows, word);
+    if (!found) {
+      const Keyword *const of_scripts = find_keyword(keywords(), word);
+      if (of_scripts)
+        throw InputError("'" + word +
+                         "' is a keyword of scripts: " + of_scripts->answer_to_program);
+      refuse_keyword(word, rows, granular);
     }
-    const auto found = std::find(names.begin(), names.end(), word);
-    if (found == names.end()) refuse_keyword(word, names, granular, of_program);
-    const Keyword &row = keywords()[found - names.begin()];
+    const Keyword &row = *found;
     w.set_context(row.name, syntax_of(row));
     const bool next = word == "mesh" && !meshes.back().file.empty();
     if (next && !early.empty())

@@ -962,5 +962,15 @@ TEST(sub_model_facts, are_refused_without_a_size_and_past_the_last)
   EXPECT_EQ(lsdcd_sub_model_get_facts(0, &facts), LSDCD_OK);
 }
 
+TEST(keyword_facts, are_refused_without_a_size_and_past_the_last)
+{
+  lsdcd_keyword_facts facts = {};
+  EXPECT_EQ(lsdcd_keyword_get_facts(0, &facts), LSDCD_ERROR_ARGUMENT);
+  facts.size = sizeof facts;
+  EXPECT_EQ(lsdcd_keyword_get_facts(100000, &facts), LSDCD_ERROR_ARGUMENT);
+  EXPECT_EQ(lsdcd_keyword_get_facts(0, &facts), LSDCD_OK);
+  EXPECT_STREQ(facts.name, "mesh");
+}
+
 }    // namespace
 }    // namespace test_library_words

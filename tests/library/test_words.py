@@ -147,13 +147,14 @@ STYLE = "hooke/history 1000 300 20 NULL 0.5 1"
                                    "mesh floor.stl wear_factor 2", "mesh floor.stl servo force z 1", "mesh floor.stl scale 1 scale x", "mesh floor.stl energy energy",
                                    "mesh floor.stl motion rotate 0 0 0 0 0 0 1", "mesh floor.stl law hooke 1", "mesh floor.stl friction_heat 2"))
 def test_refused_as_in_a_script(folder, words):
-    """The text of the error is the script's, but for the name of the command."""
+    """The text of the error is the script's, but for the name of the command and for the motion caller."""
     write_meshes(folder)
     done = run(folder, f"{BEGIN}fix wall all wall/lsdcd {STYLE} {words}\n")
     said = re.search(r"^ERROR: Fix wall wall/lsdcd: (.*?)(?: \([^() ]*\.cpp:\d+\))?$", done.stdout, re.M)
     with pytest.raises(lsdcd.Error) as refused:
         lsdcd.Wall.check(f"{STYLE} {words}")
-    fact("the text of the script", said and said[1].replace("fix wall/lsdcd", "wall") == str(refused.value), (done.stdout[-400:], str(refused.value)))
+    wanted = said and said[1].replace("fix wall/lsdcd", "wall").replace("motion linear Vx", "motion caller | linear Vx")
+    fact("the text of the script", wanted == str(refused.value), (done.stdout[-400:], str(refused.value)))
     with pytest.raises(lsdcd.Error) as refused_by_wall:
         lsdcd.Wall(f"{STYLE} {words}")
     fact("the check's is the wall's", str(refused_by_wall.value) == str(refused.value), str(refused_by_wall.value))
@@ -170,6 +171,11 @@ def test_words_of_programs_alone(folder, words, says):
 MESH = lsdcd.Mesh(*FLOOR)
 
 
+def test_a_word_of_programs_behind_a_material():
+    for words in ("glass on aluminium shapes mesh $floor", "glass shapes mesh $floor material aluminium"):
+        lsdcd.Wall.check(f"granular material glass.lsdcd {words}", floor=MESH)
+
+
 @pytest.mark.parametrize("words, values, says", (
     (f"{STYLE} mesh $flor", {"floor": MESH}, r"'\$flor': there is no value of this name: the nearest is 'floor'"),
     (f"{STYLE} mesh $floor", {"floor": MESH, "lid": MESH}, r"the value 'lid' is given, and no word is \$lid"),
@@ -181,6 +187,7 @@ MESH = lsdcd.Mesh(*FLOOR)
     (f"{STYLE} mesh $floor motion table $rows", {"floor": MESH, "rows": [[0, 0, 0, 0], [0, 1, 1, 1]]}, r"in 'motion', row 2 of \$rows: .*times must ascend"),
     (f"{STYLE} mesh $floor nodes group", {"floor": MESH}, "in 'nodes', a program has no groups of atoms: write nodes caller"),
     (f"{STYLE} mesh $floor contacts", {"floor": MESH}, "'contacts' is a keyword of scripts: write each_contact"),
+    (f"{STYLE} mesh $floor shapes shapes", {"floor": MESH}, "in 'shapes', the keyword is given twice"),
     (f"{STYLE} mesh $floor motion caller motion linear 0 0 1", {"floor": MESH}, "in 'motion', the poses of the program alone move such a mesh"),
     (f"{STYLE} mesh $floor mesh_stl $file every 5", {"floor": MESH, "file": "a.obj"}, "a.obj"),
     (f"{STYLE} mesh floor", {"floor": MESH}, r"no word is \$floor: a value stands behind a \$, and 'floor' is none"),
