@@ -135,16 +135,16 @@ def main():
         arm.kick(0.5 * dt, motors, moments, ahead)
         return 0.5 * dt * sum(outside), 0.5 * dt * (sum(map(abs, outside)) + abs(moments[0]))
 
-    now, most = forces(0, setup=True), 0.0
+    (motors, moments), most = forces(0, setup=True), 0.0
     energy, momentum = arm.energy(), arm.p[0] + angular_momentum(grains)
     given, size = 0.0, 0.0
     for step in range(round(seconds / dt)):
-        first = kick(*now, True)
+        first = kick(motors, moments, True)
         arm.drift(dt)
         grains.x += dt * grains.v
-        now = forces((step + 1) * dt)
-        second = kick(*now, False)
-        given, size, most = given + first[0] + second[0], size + first[1] + second[1], max(most, abs(now[1][0]))
+        motors, moments = forces((step + 1) * dt)
+        second = kick(motors, moments, False)
+        given, size, most = given + first[0] + second[0], size + first[1] + second[1], max(most, abs(moments[0]))
     missing = abs(arm.p[0] + angular_momentum(grains) - momentum - given)
     print(f"the grains' moment about the shoulder was up to {most:.3g} N m, their work on the arm {1e3 * arm.taken:.4g} mJ")
     lost, work = abs(arm.energy() - energy - arm.work - arm.taken), abs(arm.work) + abs(arm.taken)

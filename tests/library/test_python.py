@@ -1041,29 +1041,3 @@ def test_layouts():
                               ("an argument less", "lsdcd_wall_get_pose\\(p, i, p\\)", "lsdcd_wall_get_pose(p, i)")):
         other = re.sub(was, spoilt, program)
         fact(f"{name} is found", other != program and says(other) != "", was)
-
-
-def test_types():
-    mypy = shutil.which("mypy")
-    if not mypy:
-        print("skipped: no mypy")
-        return
-    def check(*words):
-        done = subprocess.run([mypy, "--strict", "--cache-dir", folder, *words], cwd=ROOT / "src" / "api", text=True,
-                              env={**os.environ, "MYPYPATH": str(ROOT / "src" / "api")}, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT)
-        return done.returncode, done.stdout
-
-    with tempfile.TemporaryDirectory() as folder:
-        code, text = check("-p", "lsdcd")
-        fact("the types of the package hold, mypy --strict", code == 0, text)
-        code, text = check("-c", """import lsdcd
-grid = lsdcd.Mesh("wall.stl").grid(cutoff=0.01)
-grid.query([0, 0, 0], radius=0.1).distance
-grid.facts.cutoff + 1
-grid.query([0, 0, 0], threads="two")
-grid.facts.cut_off
-lsdcd.Body(grid, grid)
-""")
-        lines = [int(line.split(":")[1]) for line in text.splitlines() if ": error:" in line]
-        fact("a user's types are checked: wrong ones found, right ones not", sorted(set(lines)) == [5, 6, 7], text)

@@ -27,30 +27,31 @@ import ctypes
 import math
 import os
 import threading
-from typing import Any, Callable, Iterable, Mapping, Protocol, Sequence, runtime_checkable
+from typing import Any, Callable, Iterable, Literal, Mapping, Protocol, Sequence, TypeAlias, cast, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _shapes
-from ._c import DEVICES as DEVICES, ERRORS as ERRORS, Error as Error, Progress as Progress
+from ._c import DEVICES as DEVICES, ERRORS as ERRORS, Device as Device, Error as Error, Progress as Progress
 from ._c import (_BodyFacts, _BodyOptions, _BodyState, _Broadcast, _Collision, _Contacts, _GridFacts, _GridOptions, _Host,
                  _MeshArrays, _MeshFacts, _Owner, _Query, _Record, _Reduce, _Show, _Spheres, _WallOptions, _WallStep,
                  _WallContacts, _WallImpacts, _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _flag, _in_use,
                  _int, _interrupts_held, _lib, _listened, _numbers, _real, _size, _sized, _text, _tuple)
+from ._names import KeywordName as KeywordName, OutputName as OutputName
 from ._shapes import (ShapeContacts as ShapeContacts, ShapeDistances as ShapeDistances, ShapeFacts as ShapeFacts,
                       shape_facts as shape_facts)
 from ._sub_models import SubModelFacts as SubModelFacts, sub_models as sub_models
-from ._words import Values as _Values
+from ._words import KEYWORDS as KEYWORDS, Keyword as Keyword, Values as _Values
 
 __version__: str = _lib.lsdcd_version().decode()
 
 
-def _all_outputs() -> dict[str, tuple[str, str]]:
-    found: dict[str, tuple[str, str]] = {}
+def _all_outputs() -> dict[OutputName, tuple[str, str]]:
+    found: dict[OutputName, tuple[str, str]] = {}
     name, unit, text = ctypes.c_char_p(), ctypes.c_char_p(), ctypes.c_char_p()
     while _lib.lsdcd_output_info(len(found), ctypes.byref(name), ctypes.byref(unit), ctypes.byref(text)) == 0:
-        found[_text_of(name)] = _text_of(unit), _text_of(text)
+        found[cast(OutputName, _text_of(name))] = _text_of(unit), _text_of(text)
     return found
 
 
@@ -59,7 +60,7 @@ def _text_of(value: ctypes.c_char_p) -> str:
 
 
 # The numbers that Wall.outputs() may give: the kind of unit, and what they are.
-OUTPUTS: dict[str, tuple[str, str]] = _all_outputs()
+OUTPUTS: dict[OutputName, tuple[str, str]] = _all_outputs()
 FOUND, CERTIFIED, SIDE_ESTIMATED = 1, 2, 4
 NONE = 0xffffffff
 # What a query answers: how many dimensions beyond the points', and the type, None: that of the points.
@@ -177,8 +178,8 @@ class Mesh(_Owner):
         """What `lsdcd inspect` says."""
         return _text(_lib.lsdcd_mesh_report(self._handle))
 
-    def grid(self, cutoff: float | None = None, cell: float = 0.0, nearest: int = 0, precision: str = "double",
-             memory: float = 0.0, cache: str | os.PathLike[str] | None = None, threads: int = 0, device: str = "cpu",
+    def grid(self, cutoff: float | None = None, cell: float = 0.0, nearest: int = 0, precision: Literal["double", "float"] = "double",
+             memory: float = 0.0, cache: str | os.PathLike[str] | None = None, threads: int = 0, device: Device = "cpu",
              progress: Progress | None = None) -> Grid:
         """A Grid for distances up to `cutoff`, a length, None: any. The words are those of lsdcd_grid_options: `cell`,
         the edge of a cell, 0: chosen; `nearest` 0: complete lists; `precision` "double" or "float"; `memory`, bytes, 0:
@@ -697,6 +698,18 @@ class BodyState(_Record):
     stop_force: float                        # of a stop, along (about) the axis: holding the body, or taking its speed
 
 
+class HasArray(Protocol):
+    """What numpy makes an array of: numpy's numbers and arrays, and those of other libraries on the host."""
+
+    def __array__(self) -> NDArray[Any]: ...
+
+
+# A value of words, in which it stands as $NAME: a mesh, a text, a number (None: NULL), several, or rows of numbers. There is one Sequence, as mypy
+# would take a list of int and float for a list of object if it could be of several.
+Value: TypeAlias = Mesh | str | bytes | os.PathLike[str] | float | None | HasArray | Sequence[float | None | HasArray | Sequence[float]]
+Units = Literal["si", "cgs", "micro", "nano"]    # of numbers from files of materials
+
+
 class Wall(_Owner):
     """A wall of meshes that pushes spheres, by the words that stand behind `wall/lsdcd` in a script. In words $NAME is a value of
     yours, given by its name, or in `values`: a Mesh, numbers (None: NULL), rows of a motion table, or a text. `mesh $NAME` is called NAME; `motion
@@ -723,7 +736,8 @@ class Wall(_Owner):
     def __init__(self, words: str, lo: ArrayLike | None = None, hi: ArrayLike | None = None,
                  periodic: Sequence[bool] = (False, False, False), margin: float = 0.0, time: float = 0.0,
                  show: Callable[[str, bool], object] | None = None, threads: int = 0, host: Host | None = None,
-                 device: str = "cpu", stream: Any = None, units: str = "si", values: Mapping[str, Any] | None = None, **named: Any) -> None:
+                 device: Device = "cpu", stream: Any = None, units: Units = "si", values: Mapping[str, Value] | None = None,
+                 **named: Value) -> None:
         super().__init__()
         self._on_device = bool(_chosen("device", device, DEVICES))
         self._stream = stream    # which must live as long as the wall
@@ -768,14 +782,14 @@ class Wall(_Owner):
                  ctypes.byref(self._handle), meshes=given.meshes)
 
     @staticmethod
-    def check(words: str, values: Mapping[str, Any] | None = None, units: str = "si", **named: Any) -> None:
+    def check(words: str, values: Mapping[str, Value] | None = None, units: Units = "si", **named: Value) -> None:
         """Raises Error for what Wall() would refuse of words and values, and makes nothing. It reads files of materials, and no mesh."""
         given = _Values({**(values or {}), **named}, Mesh)
         options = _sized(_WallOptions, units=units, show=_Show(0))
         with _in_use(*given.meshes):
             _check(_lib.lsdcd_wall_check(_c_text(words, "words"), given.structs, given.n, ctypes.byref(options)))
 
-    def change(self, words: str, values: Mapping[str, Any] | None = None, **named: Any) -> None:
+    def change(self, words: str, values: Mapping[str, Value] | None = None, **named: Value) -> None:
         """Changes the wall by the words of fix_modify: "mesh lid motion ...", "motion none", "servo ...", "servo none" or "body ..." of what is to
         change, from where the mesh is. Raises Error for others, and the wall stays as it is."""
         given = _Values({**(values or {}), **named}, Mesh)
@@ -918,12 +932,14 @@ class Wall(_Owner):
         values = {name: getattr(totals, name) for name, _ in _WallTotals._fields_[1:]}
         return WallTotals(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
 
-    def outputs(self, names: str, mesh: int | str | None = None) -> dict[str, float]:
-        """Numbers of a mesh, from 0, or of all, after the last step by names apart by blanks, such as "force_z power", which are those of
-        LAMMPS's scripts and keys of OUTPUTS. Numbers of a part that the wall does not have are 0. Raises Error for other names."""
-        wanted = names.split()
+    def outputs(self, names: str | Iterable[OutputName], mesh: int | str | None = None) -> dict[str, float]:
+        """Numbers of a mesh, from 0, or of all, after the last step by names, which are those of LAMMPS's scripts and keys of OUTPUTS: a list,
+        of which type checkers know the names, or a text with blanks, "force_z power". Numbers of a part that the wall does not have are 0.
+        Raises Error for other names."""
+        wanted = names.split() if isinstance(names, str) else list(names)
         numbers = np.empty(len(wanted))
-        self._do(_lib.lsdcd_wall_get_outputs, self._handle, self._mesh_or_all(mesh), names.encode(), numbers.ctypes.data, numbers.size)
+        self._do(_lib.lsdcd_wall_get_outputs, self._handle, self._mesh_or_all(mesh), _c_text(" ".join(wanted), "names"),
+                 numbers.ctypes.data, numbers.size)
         return dict(zip(wanted, numbers.tolist()))
 
     def pose(self, mesh: int | str = 0) -> NDArray[np.float64]:
@@ -1055,6 +1071,11 @@ class Wall(_Owner):
         saved = _in_a_row(_as_floats(numbers, "numbers"), "numbers", np.float64)
         call = _lib.lsdcd_wall_restore_what_fits if _flag(what_fits, "what_fits") else _lib.lsdcd_wall_restore
         self._do(call, self._handle, saved.ctypes.data, saved.size)
+
+
+if Wall.__doc__:    # which Python leaves out with -OO
+    Wall.__doc__ += "\n\n    Keywords of words, with what holds without them (KEYWORDS has units and ranges, too):\n\n" + "".join(
+        f"        {row.syntax}\n            {row.meaning} ({row.default or 'required'})\n" for row in KEYWORDS.values())
 
 
 def _copied(array: _arrays.Array, name: str, kind: np.dtype[Any], added: list[tuple[Any, Any]]) -> _arrays.Array | None:

@@ -11,7 +11,7 @@ import operator
 import os
 import signal
 import threading
-from typing import Any, Callable, Iterator, Sequence, TypeVar
+from typing import Any, Callable, Iterator, Literal, Sequence, TypeVar, cast, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +21,8 @@ from ._header import Header
 
 _size, _int, _real, _at = ctypes.c_size_t, ctypes.c_int, ctypes.c_double, ctypes.c_void_p
 ERRORS = ("ok", "argument", "input", "cutoff", "side", "device", "memory", "internal", "cancelled")
-DEVICES = ("cpu", "cuda")
+Device = Literal["cpu", "cuda"]
+DEVICES: tuple[Device, ...] = get_args(Device)
 
 
 # A listener of a long call: what is done now, and how much of that, from 0 to 1. What it raises ends the call and is

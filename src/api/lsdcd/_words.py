@@ -1,19 +1,47 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Values of a program in the words of a wall, as lsdcd_value."""
+"""The keywords of the words of a wall, and values of a program in them, as lsdcd_value."""
 from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any, Mapping
+from typing import Any, Mapping, cast
 
 import numpy as np
 
-from ._c import _HEADER, _Owner, _c_text
+from ._c import _HEADER, _lib, _Owner, _Record, _c_text, _sized
+from ._names import KeywordName
 
 _Value: Any = _HEADER.structs["lsdcd_value"]
+_KeywordFacts: Any = _HEADER.structs["lsdcd_keyword_facts"]
 _NUMBERS, _MESH, _ROWS, _TEXT = range(4)
+
+
+class Keyword(_Record):
+    """A keyword of a wall's words."""
+    syntax: str      # "scale s | sx sy sz"
+    unit: str        # "length"; "": none
+    range: str       # "> 0"; "": any
+    default: str     # what holds without it; "": it is required
+    meaning: str
+    of_mesh: bool    # is it of the mesh before it? Else of the wall
+    repeats: bool    # may it be given more than once?
+
+
+def _all_keywords() -> dict[KeywordName, Keyword]:
+    found: dict[KeywordName, Keyword] = {}
+    facts = _sized(_KeywordFacts)
+    while _lib.lsdcd_keyword_get_facts(len(found), ctypes.byref(facts)) == 0:
+        name, values, unit, default = (text.decode() for text in (facts.name, facts.values, facts.unit, facts.fallback))
+        found[cast(KeywordName, name)] = Keyword(
+            syntax=f"{name} {values}".rstrip(), unit=unit, range=facts.range.decode(), default=default, meaning=facts.meaning.decode(),
+            of_mesh=bool(facts.of_mesh), repeats=bool(facts.repeats))
+    return found
+
+
+# Of the words of a wall, as doc/fix_wall_lsdcd.rst explains them.
+KEYWORDS: dict[KeywordName, Keyword] = _all_keywords()
 
 
 class Values:
