@@ -100,10 +100,9 @@ Real Tokens::number(const char *what, Real low, Real high)
 {
   Real value = 0;
   if (done()) fail(std::string("the value of ") + what + " is missing");
-  if (!is_number(peek(), &value))
-    fail(std::string(what) + " must be a number, not '" + peek() + "'");
+  if (!is_number(peek(), &value)) fail(std::string(what) + " must be a number, not " + quoted());
   if (value < low || value > high)
-    fail(std::string(what) + " = " + peek() + " is out of range: it must be " +
+    fail(std::string(what) + " = " + peek() + with_origin() + " is out of range: it must be " +
          range_text(low, high));
   ++at_;
   return value;
@@ -130,6 +129,16 @@ int Tokens::choice(const std::vector<std::string> &choices)
   if (found == choices.end()) fail("'" + peek() + "' is not one of its values");
   ++at_;
   return static_cast<int>(found - choices.begin());
+}
+
+std::string Tokens::with_origin() const
+{
+  return origins_ && !(*origins_)[at_].empty() ? " (" + (*origins_)[at_] + ")" : "";
+}
+
+void Tokens::refuse_number(const std::string &why) const
+{
+  if (number_follows()) fail("the number " + quoted() + " is one more than expected" + why);
 }
 
 void Tokens::fail(const std::string &problem) const

@@ -35,11 +35,19 @@ bool is_like(const std::string &word, const std::string &name);
 
 class Tokens {
  public:
-  explicit Tokens(const std::vector<std::string> &tokens) : tokens_(tokens) {}
+  // `origins`: what a word was made of by a program, as "$law, number 7"; empty: it is written so. Null: all are.
+  explicit Tokens(const std::vector<std::string> &tokens,
+                  const std::vector<std::string> *origins = nullptr) :
+      tokens_(tokens),
+      origins_(origins)
+  {
+  }
 
   bool done() const { return at_ == tokens_.size(); }
   const std::string &peek() const { return tokens_[at_]; }
   std::string take() { return tokens_[at_++]; }
+  // Returns the next word for messages: "'0.5'", or "'0.5' ($law, number 7)".
+  std::string quoted() const { return "'" + peek() + "'" + with_origin(); }
   bool number_follows() const;
   // Is it one of the next n words?
   bool is_near(const std::string &word, std::size_t n) const;
@@ -66,11 +74,15 @@ class Tokens {
   int choice(const std::vector<std::string> &choices);
 
   [[noreturn]] void fail(const std::string &problem) const;
+  // Fails where a number follows, which nothing reads. `why`: what is behind "expected".
+  void refuse_number(const std::string &why = "") const;
 
   static constexpr Real kHuge = 1.7976931348623157e308;
 
  private:
+  std::string with_origin() const;
   const std::vector<std::string> &tokens_;
+  const std::vector<std::string> *origins_;
   std::size_t at_ = 0;
   std::string name_, syntax_;
 };

@@ -126,7 +126,7 @@ std::vector<std::string> read_words(Tokens &w, const std::vector<std::string> &w
     seen.push_back(w.take());
     read_word(word, w, body, inputs);
   }
-  if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one more than expected");
+  w.refuse_number();
   return seen;
 }
 

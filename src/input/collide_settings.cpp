@@ -13,10 +13,9 @@ namespace {
 
 const char *const kCollideSyntax =
     "compute ID group lsdcd/collide FIX_ID mesh FILE [scale s | sx sy sz] [rotate ax ay az "
-    "degrees] "
-    "[move x y z] [weld tol] [bodies one | molecule] [atoms FILE] [grid L | auto] [nearest N | "
-    "all] [memory M] "
-    "[device cpu | cuda | auto] [log full | brief] [names PREFIX NAME ...]";
+    "degrees] [move x y z] [matrix m11 m12 m13 tx m21 m22 m23 ty m31 m32 m33 tz] [weld tol] "
+    "[bodies one | molecule] [atoms FILE] [grid L | auto] [nearest N | all] [memory M] [device "
+    "cpu | cuda | auto] [log full | brief] [names PREFIX NAME ...]";
 
 // False where the word is no keyword.
 bool read_word(const std::string &word, Tokens &w, CollideSettings &s)

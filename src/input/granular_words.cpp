@@ -152,6 +152,7 @@ ContactLaw read_granular(Tokens &w, std::string &text, std::vector<GivenSubModel
   const auto read = [&](Family family) {
     const SubModel &row = read_name(w, family);
     const std::vector<Real> numbers = read_numbers(w, row, d);
+    w.refuse_number();
     if (given) given->push_back({&row, numbers});
   };
   d.law = granular_law(NormalModel::hooke);

@@ -17,12 +17,12 @@ namespace {
 constexpr int kAttemptsAtOnce = 1000;
 
 const char *const kInsertSyntax =
-    "fix ID group insert/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move x y "
-    "z] [weld tol] [depth D] | region ID, with diam one D | range LO HI | poly N D1 F1 ... | mass "
-    "N D1 F1 ..., dens RHO | LO HI, [massrate R | numberrate R] [mass M | number N] [type T] [vel "
-    "X Y Z | normal V] [jitter [gaussian] V | X Y Z] [temperature T] [wall all | none | ID] "
-    "[attempts N] [every N] "
-    "[seed N]";
+    "fix ID group insert/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move "
+    "x y z] [matrix m11 m12 m13 tx m21 m22 m23 ty m31 m32 m33 tz] [weld tol] [depth D] | "
+    "region ID, with diam one D | range LO HI | poly N D1 F1 ... | mass N D1 F1 ..., dens RHO "
+    "| LO HI, [massrate R | numberrate R] [mass M | number N] [type T] [vel X Y Z | normal V] "
+    "[jitter [gaussian] V | X Y Z] [temperature T] [wall all | none | ID] [attempts N] [every "
+    "N] [seed N]";
 
 constexpr Real kMostInt = 2147483647, kMostExact = 9007199254740992;
 

@@ -70,6 +70,23 @@ void read_move(Tokens &w, MeshSpec &s, InputNames &)
   s.placement.move(shift);
 }
 
+void read_matrix(Tokens &w, MeshSpec &s, InputNames &)
+{
+  const char *const names[3][4] = {
+      {"m11", "m12", "m13", "tx"}, {"m21", "m22", "m23", "ty"}, {"m31", "m32", "m33", "tz"}};
+  Vec3 m[3], shift;
+  for (int i = 0; i < 3; i++) {
+    m[i] = read_vector(w, names[i][0], names[i][1], names[i][2]);
+    shift[i] = w.number(names[i][3]);
+  }
+  w.refuse_number(": a matrix has three rows of four numbers");
+  try {
+    s.placement.matrix(m, shift);
+  } catch (const InputError &e) {
+    w.fail(e.what());
+  }
+}
+
 void read_cache(Tokens &w, MeshSpec &s, InputNames &)
 {
   if (w.done()) w.fail("the file name is missing");
@@ -238,10 +255,14 @@ const Keyword kKeywords[] = {
     {"name", "NAME", "", "no number", "FILE", "what fix_modify and messages call the mesh", nullptr,
      read_name},
     {"scale", "s | sx sy sz", "", "not 0", "1",
-     "multiply coordinates; scale, rotate and move act in the order given", nullptr, read_scale},
+     "multiply coordinates; scale, rotate, move and matrix act in the order given", nullptr,
+     read_scale},
     {"rotate", "ax ay az degrees", "degrees", "axis not 0 0 0", "none",
      "right-handed rotation about an axis through the origin", nullptr, read_rotate},
     {"move", "x y z", "length", "", "0 0 0", "shift", nullptr, read_move},
+    {"matrix", "m11 m12 m13 tx m21 m22 m23 ty m31 m32 m33 tz", "t: length", "determinant not 0",
+     "none", "three rows, each with its shift behind it: a corner at x goes to m x + t", nullptr,
+     read_matrix},
     {"weld", "tol", "length", ">= 0", "cracks of 1e-6 of a part",
      "corners closer than this are one vertex; 0: only equal ones", nullptr,
      [](Tokens &w, MeshSpec &s, InputNames &) { s.weld = w.number("the tolerance", 0); }},
@@ -387,7 +408,7 @@ const Keyword *find_keyword(const std::vector<Keyword> &rows, const std::string 
 
 bool Keyword::repeats() const
 {
-  for (const char *const word : {"scale", "rotate", "move", "motion", "law"})
+  for (const char *const word : {"scale", "rotate", "move", "matrix", "motion", "law"})
     if (word == std::string(name)) return true;
   return false;
 }
@@ -411,7 +432,7 @@ std::size_t read_memory(Tokens &w)
 
 bool read_mesh_word(const std::string &word, Tokens &w, MeshSpec &mesh)
 {
-  for (const char *const shared : {"mesh", "scale", "rotate", "move", "weld"})
+  for (const char *const shared : {"mesh", "scale", "rotate", "move", "matrix", "weld"})
     if (word == shared)
       for (const Keyword &row : keywords())
         if (word == row.name) {

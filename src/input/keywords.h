@@ -37,8 +37,8 @@ const std::vector<Keyword> &program_keywords();
 const Keyword *find_keyword(const std::vector<Keyword> &rows, const std::string &name);
 std::string syntax_of(const Keyword &row);
 
-// Reads the values of a word that all commands with a mesh share: mesh, scale, rotate, move, weld. False:
-// it is none of these.
+// Reads the values of a word that all commands with a mesh share: mesh, scale, rotate, move, matrix, weld.
+// False: it is none of these.
 bool read_mesh_word(const std::string &word, Tokens &w, MeshSpec &mesh);
 // Returns the values of `nearest`, "all" (0) or N, the paper's N triangles of a cell (section 3.6), and of `memory`, MiB: in
 // bytes.

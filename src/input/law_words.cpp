@@ -81,6 +81,7 @@ ContactLaw read_law(Tokens &w, std::string &name, const std::string &syntax)
       draft.law.limit_damping = true;
       w.take();
     }
+    w.refuse_number();
     return draft.law;
   }
   w.fail("'" + name + "' is not a contact style");
@@ -103,6 +104,7 @@ void read_beside_style(Tokens &w, ContactLaw &law, Family family)
   LawDraft draft;
   draft.law = law;
   read_numbers(w, *rows[w.choice(names)], draft);
+  w.refuse_number();
   law = draft.law;
 }
 

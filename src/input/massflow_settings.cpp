@@ -11,9 +11,9 @@ namespace lsdcd {
 namespace {
 
 const char *const kMassflowSyntax =
-    "fix ID group massflow/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move x "
-    "y "
-    "z] [weld tol] [count each | once] [delete no | yes] [every N] [file NAME] [log full | brief]";
+    "fix ID group massflow/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] "
+    "[move x y z] [matrix m11 m12 m13 tx m21 m22 m23 ty m31 m32 m33 tz] [weld tol] [count each "
+    "| once] [delete no | yes] [every N] [file NAME] [log full | brief]";
 
 }    // namespace
 

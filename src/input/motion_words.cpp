@@ -136,11 +136,9 @@ MotionTerm read_motion_term(Tokens &w, InputNames &inputs)
   if (m.kind == MotionKind::table) read_table(w, m);
   if (m.is_by_inputs() && std::all_of(m.input, m.input + 6, [](int i) { return i == kNoInput; }))
     w.fail("all variables are NULL, so nothing would move: give at least one");
-  if (w.number_follows())
-    w.fail("the number '" + w.peek() + "' is one more than expected" +
-           (has_period ? ": there is one centre P, one axis R and one period; for a second turn "
-                         "write motion once more"
-                       : ""));
+  w.refuse_number(has_period ? ": there is one centre P, one axis R and one period; for a second "
+                               "turn write motion once more"
+                             : "");
   return m;
 }
 

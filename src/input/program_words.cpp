@@ -58,7 +58,7 @@ ProgramWords::ProgramWords(const std::string &text, const std::vector<ProgramVal
       if (word == "&") continue;    // at the end of a line of a script
       const std::size_t mark = word.find(kMark);
       if (mark == std::string::npos) {
-        words_.push_back(word);
+        add(word);
         continue;
       }
       if (mark != 0) throw InputError("'" + word + "': $NAME is a word of its own");
@@ -71,13 +71,14 @@ ProgramWords::ProgramWords(const std::string &text, const std::vector<ProgramVal
                          (names.empty() ? "" : ": " + nearest_or_all(name, names)));
       }
       used.push_back(name);
+      const bool of_matrix = !words_.empty() && words_.back() == "matrix";
       if (value->kind == ProgramValue::Kind::text)
-        words_.push_back(value->text);
-      else if (value->kind == ProgramValue::Kind::numbers)
-        for (const Real number : value->numbers)
-          words_.push_back(std::isnan(number) ? "NULL" : exact_text(number));
+        add(value->text);
+      else if (value->kind == ProgramValue::Kind::numbers ||
+               (value->kind == ProgramValue::Kind::rows && of_matrix))
+        add_numbers(*value);
       else
-        words_.push_back(word);
+        add(word);
     }
   }
   for (const ProgramValue &value : values)
@@ -86,6 +87,24 @@ ProgramWords::ProgramWords(const std::string &text, const std::vector<ProgramVal
                        (std::find(words_.begin(), words_.end(), value.name) == words_.end()
                             ? ""
                             : ": a value stands behind a $, and '" + value.name + "' is none"));
+}
+
+void ProgramWords::add(const std::string &word, const std::string &origin)
+{
+  words_.push_back(word);
+  origins_.push_back(origin);
+}
+
+void ProgramWords::add_numbers(const ProgramValue &value)
+{
+  const std::string name = kMark + value.name;
+  const std::size_t n = value.numbers.size(), columns = static_cast<std::size_t>(value.columns);
+  if (value.kind == ProgramValue::Kind::rows && (columns != 4 || n != 12))
+    throw InputError("in 'matrix', " + name + " has " + counted(n / columns, "row") + " of " +
+                     counted(columns, "number") + ": give three rows of four");
+  for (std::size_t k = 0; k < n; k++)
+    add(std::isnan(value.numbers[k]) ? "NULL" : exact_text(value.numbers[k]),
+        name + (n > 1 ? ", number " + std::to_string(k + 1) : ""));
 }
 
 const ProgramValue *ProgramWords::find(const std::string &name) const
@@ -161,8 +180,9 @@ void ProgramWords::check_put(std::ptrdiff_t n) const
       word = one;
     }
   if (marked > n)
-    throw InputError("'" + word +
-                     "' is a mesh or rows, which stand behind 'mesh' or 'motion table' alone");
+    throw InputError(
+        "'" + word +
+        "' is a mesh or rows, which stand behind 'mesh', 'motion table' or 'matrix' alone");
 }
 
 }    // namespace lsdcd

@@ -36,6 +36,8 @@ class ProgramWords {
 
   // Returns the words as a script would have them: numbers with all digits, one word each. Only meshes and rows stay $NAME.
   const std::vector<std::string> &words() const { return words_; }
+  // Returns for each word of which value it is a number, as "$law, number 7"; empty: of none.
+  const std::vector<std::string> &origins() const { return origins_; }
   // Put meshes and rows in the places of their names, in what was read from these words. They throw InputError where $NAME stands elsewhere.
   void put_into(WallSpec &wall) const;
   void put_into(RigidMotion &motion) const;
@@ -44,10 +46,12 @@ class ProgramWords {
   const ProgramValue *find(const std::string &name) const;
   // Returns the value of a word $NAME that stayed; null: the word is something else.
   const ProgramValue *value_of(const std::string &word) const;
+  void add(const std::string &word, const std::string &origin = "");
+  void add_numbers(const ProgramValue &value);
   std::ptrdiff_t put(RigidMotion &motion) const;    // returns how many
   void check_put(std::ptrdiff_t n) const;
   const std::vector<ProgramValue> &values_;
-  std::vector<std::string> words_;
+  std::vector<std::string> words_, origins_;
 };
 
 }    // namespace lsdcd

@@ -12,11 +12,9 @@ namespace lsdcd {
 namespace {
 
 const char *const kRegionSyntax =
-    "region ID mesh/lsdcd FILE [scale s | sx sy sz] [rotate ax ay az "
-    "degrees] [move x y z] [weld tol] "
-    "[gap D] [side in | out] [units box | lattice] [move v_x v_y v_z] "
-    "[rotate v_theta Px Py Pz Rx Ry "
-    "Rz]";
+    "region ID mesh/lsdcd FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move x y z] "
+    "[matrix m11 m12 m13 tx m21 m22 m23 ty m31 m32 m33 tz] [weld tol] [gap D] [side in | out] "
+    "[units box | lattice] [move v_x v_y v_z] [rotate v_theta Px Py Pz Rx Ry Rz]";
 
 // A word that LAMMPS reads, with its n values.
 void keep_for_host(const std::string &word, int n, Tokens &w, RegionSettings &s)

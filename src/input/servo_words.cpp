@@ -58,7 +58,7 @@ Servo read_one_servo(Tokens &w, InputNames &inputs)
     if (word == "gain") s.max_gain = w.number("the gain", kAboveZero);
     if (word == "limits") read_limits(w, s);
   }
-  if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one more than expected");
+  w.refuse_number();
   if (s.max_speed == 0)
     w.fail("vmax is missing, the speed at which the mesh moves up to the spheres" +
            (w.done() ? "" : "; '" + w.peek() + "' is not a keyword of a servo"));

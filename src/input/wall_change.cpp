@@ -73,14 +73,14 @@ int change_wall(Wall &wall, const std::vector<std::string> &arguments, const Ste
   if (program && of.motion.is_posed() && !of.body.present)    // a body poses its mesh by itself
     throw InputError("mesh '" + of.name +
                      "' has poses of the program, which alone move it: lsdcd_wall_set_pose()");
-  Tokens w(arguments);
+  Tokens w(arguments, program ? &program->origins() : nullptr);
   while (w.at() < taken) w.take();
   const InputNames before = wall.spec().inputs;
   InputNames inputs = before;
   // Once all is read; `set` refuses before it changes anything.
   const auto change = [&](const auto &set) {
     if (program && !w.done())
-      throw InputError("'" + w.peek() + "' is not expected behind the change of a mesh");
+      throw InputError(w.quoted() + " is not expected behind the change of a mesh");
     wall.set_inputs(inputs);
     try {
       set();

@@ -99,10 +99,11 @@ std::string answer_to(const std::string &word, bool granular)
   return "";
 }
 
-[[noreturn]] void refuse_keyword(const std::string &word, const std::vector<Keyword> &rows,
-                                 bool granular)
+// `quoted`: the word as messages have it.
+[[noreturn]] void refuse_keyword(const std::string &word, const std::string &quoted,
+                                 const std::vector<Keyword> &rows, bool granular)
 {
-  const std::string wrong = "'" + word + "' is not a keyword";
+  const std::string wrong = quoted + " is not a keyword";
   const std::string answer = answer_to(word, granular);
   if (!answer.empty()) throw InputError(wrong + " here: " + answer);
   std::vector<std::string> names;
@@ -132,7 +133,7 @@ void read_keywords(Tokens &w, WallCommand &command, bool granular, bool of_progr
   std::vector<MeshSpec> &meshes = command.wall.meshes;
   meshes.resize(1);
   while (!w.done()) {
-    const std::string word = w.take();
+    const std::string quoted = w.quoted(), word = w.take();
     if (word == "material" && command.materials.are_given()) {
       read_material_of_mesh(w, meshes.size() - 1, meshes.back().file, command.materials);
       continue;
@@ -141,9 +142,8 @@ void read_keywords(Tokens &w, WallCommand &command, bool granular, bool of_progr
     if (!found) {
       const Keyword *const of_scripts = find_keyword(keywords(), word);
       if (of_scripts)
-        throw InputError("'" + word +
-                         "' is a keyword of scripts: " + of_scripts->answer_to_program);
-      refuse_keyword(word, rows, granular);
+        throw InputError(quoted + " is a keyword of scripts: " + of_scripts->answer_to_program);
+      refuse_keyword(word, quoted, rows, granular);
     }
     const Keyword &row = *found;
     w.set_context(row.name, syntax_of(row));
@@ -223,7 +223,7 @@ WallCommand parse_wall(const std::vector<std::string> &arguments, const LawsOfMa
 {
   WallCommand command;
   WallSpec &wall = command.wall;
-  Tokens w(arguments);
+  Tokens w(arguments, program ? &program->words.origins() : nullptr);
   const char *const command_name = program ? "wall" : "fix wall/lsdcd";
   if (program && !program->on_device) wall.device = Device::cpu;
   w.set_context(command_name, law_syntax());
@@ -245,6 +245,7 @@ WallCommand parse_wall(const std::vector<std::string> &arguments, const LawsOfMa
   if (has_materials) add_laws(command.materials, laws_of, wall);
   finish_laws(wall);
   check_spec(wall);
+  if (program) check_begin(wall);
   return command;
 }
 

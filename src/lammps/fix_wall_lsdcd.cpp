@@ -13,6 +13,7 @@
 #include "lammps/host_respa.h"
 #include "lammps/other_fixes.h"
 #include "lammps/own_wall_gran.h"
+#include "wall/spec/spec_check.h"
 #include "wall/spec/spec_text.h"
 #include "wall/wall_outputs.h"
 
@@ -68,6 +69,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
       throw lsdcd::InputError("in 'draw', there is no atom type " +
                               std::to_string(picture.spec.type));
     check_types(spec);
+    if (modify->nfix_restart_global == 0) lsdcd::check_begin(spec);    // else a state may follow
 #if !HOST_HAS_HEAT
     if (spec.law().has_heat())
       throw lsdcd::InputError(

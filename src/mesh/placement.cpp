@@ -37,13 +37,38 @@ void sine_cosine(Real degrees, Real &sine, Real &cosine)
 }
 
 // In long double the product of three factors of 1e-150 does not underflow.
-bool is_mirror(const Vec3 *row)
+using Wide = long double;
+
+struct Determinant {
+  Wide value;
+  Wide of_sizes;    // the sum of the sizes of its six products
+};
+
+Determinant determinant(const Vec3 *row)
 {
-  using Wide = long double;
-  const Wide x = Wide(row[1].y) * row[2].z - Wide(row[1].z) * row[2].y;
-  const Wide y = Wide(row[1].z) * row[2].x - Wide(row[1].x) * row[2].z;
-  const Wide z = Wide(row[1].x) * row[2].y - Wide(row[1].y) * row[2].x;
-  return row[0].x * x + row[0].y * y + row[0].z * z < 0;
+  Determinant d = {0, 0};
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const Wide plus = Wide(row[0][i]) * row[1][j] * row[2][k],
+               minus = Wide(row[0][i]) * row[1][k] * row[2][j];
+    d.value += plus - minus;
+    d.of_sizes += std::fabs(plus) + std::fabs(minus);
+  }
+  return d;
+}
+
+void check_determinant(const Vec3 *row)
+{
+  const std::string of = "the determinant of the rows " + vector_text(row[0]) + ", " +
+                         vector_text(row[1]) + ", " + vector_text(row[2]) + " is ";
+  const Determinant d = determinant(row);
+  // Each of the three numbers in a product has been rounded to double.
+  const Wide rounding = 3 * Wide(0x1p-53) * d.of_sizes;
+  if (!(std::fabs(d.value) > rounding))
+    throw InputError(of + (d.value == 0 ? "0" : "0 within rounding") +
+                     ", so that it would make the mesh flat: give three rows that lie in no plane");
+  if (!std::isfinite(static_cast<Real>(d.value)))
+    throw InputError(of + "not finite: give smaller numbers");
 }
 
 }    // namespace
@@ -81,11 +106,7 @@ void Placement::rotate(const Vec3 &axis, Real degrees)
       {(1 - c) * k.y * k.x + s * k.z, diagonal(k.y), (1 - c) * k.y * k.z - s * k.x},
       {(1 - c) * k.z * k.x - s * k.y, (1 - c) * k.z * k.y + s * k.x, diagonal(k.z)}};
 
-  Vec3 row[3];
-  for (int i = 0; i < 3; ++i)
-    row[i] = turn[i].x * row_[0] + turn[i].y * row_[1] + turn[i].z * row_[2];
-  shift_ = {dot(turn[0], shift_), dot(turn[1], shift_), dot(turn[2], shift_)};
-  for (int i = 0; i < 3; ++i) row_[i] = row[i];
+  compose(turn);
   steps_.push_back({PlacementStep::rotate, axis, degrees});
 }
 
@@ -96,6 +117,30 @@ void Placement::move(const Vec3 &shift)
                      ": a component is not finite; give three lengths");
   shift_ += shift;
   steps_.push_back({PlacementStep::move, shift});
+}
+
+void Placement::matrix(const Vec3 (&m)[3], const Vec3 &shift)
+{
+  for (const Vec3 &row : m)
+    if (!is_finite(row))
+      throw InputError("matrix with the row " + vector_text(row) +
+                       ": a number is not finite; give finite numbers");
+  if (!is_finite(shift))
+    throw InputError("matrix with the shift " + vector_text(shift) +
+                     ": a component is not finite; give three lengths");
+  check_determinant(m);
+  compose(m);
+  shift_ += shift;
+  steps_.push_back({PlacementStep::matrix, shift, 0, {m[0], m[1], m[2]}});
+}
+
+// Acts on the result of all steps so far.
+void Placement::compose(const Vec3 (&m)[3])
+{
+  Vec3 row[3];
+  for (int i = 0; i < 3; ++i) row[i] = m[i].x * row_[0] + m[i].y * row_[1] + m[i].z * row_[2];
+  shift_ = {dot(m[0], shift_), dot(m[1], shift_), dot(m[2], shift_)};
+  for (int i = 0; i < 3; ++i) row_[i] = row[i];
 }
 
 void Placement::set(const Vec3 (&row)[3], const Vec3 &shift)
@@ -117,6 +162,14 @@ bool Placement::operator==(const Placement &other) const
          shift_ == other.shift_;
 }
 
+bool Placement::stretches() const
+{
+  constexpr Real kRounding = 1e-9;
+  for (int k = 0; k < 3; ++k)
+    if (std::fabs(norm(Vec3{row_[0][k], row_[1][k], row_[2][k]}) - 1) > kRounding) return true;
+  return false;
+}
+
 Vec3 Placement::apply(const Vec3 &x) const
 {
   return Vec3{dot(row_[0], x), dot(row_[1], x), dot(row_[2], x)} + shift_;
@@ -134,7 +187,7 @@ void Placement::apply(TriangleSoup &soup) const
                        " overflows when it is placed; use a smaller scale or shift");
     soup.corners[i] = placed;
   }
-  if (is_mirror(row_))
+  if (determinant(row_).value < 0)
     for (std::size_t t = 0; t < soup.n_triangles(); ++t)
       std::swap(soup.corners[3 * t + 1], soup.corners[3 * t + 2]);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where a mesh stands in the simulation box: scale, rotate and move, in the order given.
+// Where a mesh stands in the simulation box: scale, rotate, move and matrix, in the order given.
 #pragma once
 
 #include "base/vec3.h"
@@ -13,10 +13,11 @@ namespace lsdcd {
 
 // A part of a placement.
 struct PlacementStep {
-  enum Kind { scale, rotate, move };
+  enum Kind { scale, rotate, move, matrix };
   Kind kind;
   Vec3 vector;         // factors, an axis, or a length
   Real degrees = 0;    // of rotate
+  Vec3 row[3] = {};    // of matrix
 };
 
 // An affine map x -> m x + t, built up one step at a time; later steps act on
@@ -28,6 +29,8 @@ class Placement {
   // Right-handed rotation about an axis through the origin; `axis` need not be unit.
   void rotate(const Vec3 &axis, Real degrees);
   void move(const Vec3 &shift);
+  // Takes x to m x + shift. Throws InputError where the determinant of m is 0 within the rounding of its numbers, or not finite.
+  void matrix(const Vec3 (&m)[3], const Vec3 &shift);
 
   // The map of these rows and this shift, which has no steps.
   void set(const Vec3 (&row)[3], const Vec3 &shift);
@@ -37,6 +40,8 @@ class Placement {
   bool is_identity() const;
   // The steps it was built from, in order, for messages.
   const std::vector<PlacementStep> &steps() const { return steps_; }
+  // Returns whether it changes the length of an edge along an axis of the mesh.
+  bool stretches() const;
   // Returns whether it is the same map.
   bool operator==(const Placement &other) const;
   Vec3 apply(const Vec3 &x) const;
@@ -47,6 +52,7 @@ class Placement {
   void apply(TriangleSoup &soup) const;
 
  private:
+  void compose(const Vec3 (&m)[3]);
   Vec3 row_[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   Vec3 shift_ = {0, 0, 0};
   std::vector<PlacementStep> steps_;

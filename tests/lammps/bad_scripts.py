@@ -58,6 +58,13 @@ set             atom 4 mol {}
 """
 
 TABLES = [
+    # Where the fix is made, without a run.
+    (WALL + HOOKE + "mesh floor.stl {}\n", [
+        ("limits_without_0", "body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 joint slider 0 0 1 limits 1 2",
+         "Fix wall wall/lsdcd", "in 'body', the limits 1 2 do not contain 0, which is where the body begins"),
+        ("flat_by_matrix", "matrix 1 2 3 0 2 4 6 0 0 0 1 0",
+         "Fix wall wall/lsdcd", "in 'matrix', the determinant of the rows 1 2 3, 2 4 6, 0 0 1 is 0"),
+    ]),
     # fix wall/lsdcd: the words after mesh.
     (WALL + HOOKE + "mesh {}\n" + RUN, [
         ("grid_over_budget", "floor.stl grid 0.01 memory 1",

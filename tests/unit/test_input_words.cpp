@@ -2,10 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "base/input_words.h"
+#include "input/collide_settings.h"
+#include "input/insert_settings.h"
 #include "input/keywords.h"
+#include "input/massflow_settings.h"
+#include "input/region_settings.h"
+#include "input/wall_command.h"
 #include "support/comma_locale.h"
 
 #include <gtest/gtest.h>
+
+#include <iterator>
+#include <sstream>
 
 namespace lsdcd::test_input_words {
 namespace {
@@ -50,6 +58,24 @@ TEST(input_words, repeat_as_the_keywords_do)
     std::vector<std::string> seen = {row.name};
     EXPECT_EQ(is_twice(row.name, seen), !row.repeats()) << row.name;
   }
+}
+
+// Its rows are behind one another, each with its shift; what is before it is placed by it, too.
+TEST(input_words, place_meshes_by_a_matrix_in_all_commands)
+{
+  const std::string place = "move 1 0 0 matrix 1 2 3 10 0 1 4 20 0 0 2 30 scale 2";
+  const auto words = [&](const std::string &before, const std::string &behind) {
+    std::istringstream in(before + " " + place + " " + behind);
+    return std::vector<std::string>{std::istream_iterator<std::string>(in), {}};
+  };
+  const Placement placements[] = {
+      parse_massflow(words("mesh a.stl", "")).surface.placement,
+      parse_collide(words("wall mesh a.stl", "")).mesh.placement,
+      parse_region(words("a.stl", "")).mesh.placement,
+      parse_insert(words("mesh a.stl", "diam one 1 dens 1 number 1")).face.placement,
+      parse_wall(words("hooke 1 1 1 1 1 1 mesh a.stl", "")).wall.meshes[0].placement};
+  for (const Placement &p : placements)
+    EXPECT_EQ(p.apply(Vec3{0, 1, 1}), (Vec3{2 * (1 + 2 + 3 + 10), 2 * (1 + 4 + 20), 2 * 32}));
 }
 
 TEST(number_words, one_thing_is_singular)

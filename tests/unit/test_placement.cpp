@@ -111,6 +111,49 @@ TEST(placement, factors_axes_and_numbers_that_are_none_are_refused)
   EXPECT_THROW(p.move({0, 0, INFINITY}), InputError);
 }
 
+TEST(placement, a_matrix_acts_on_what_came_before_it)
+{
+  const Vec3 shear[3] = {{1, 0.5, 0}, {0, 2, 0}, {0.25, 0, -1}};
+  Placement p;
+  p.move({1, 2, 3});
+  p.matrix(shear, {10, 20, 30});
+  p.scale({1, 1, 2});
+  EXPECT_EQ(p.apply(Vec3{1, 1, 1}), (Vec3{2 + 1.5 + 10, 6 + 20, 2 * (0.5 - 4 + 30)}));
+  auto soup = one_triangle();
+  p.apply(soup);    // mirrored, as the determinant is -4
+  EXPECT_EQ(soup.corners[2], p.apply(Vec3{1, 0, 0}));
+}
+
+TEST(placement, a_matrix_that_would_make_the_mesh_flat_is_refused)
+{
+  const Vec3 flat[][3] = {{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}},
+                          {{0.1, 0.2, 0.3}, {0.3, 0.1, 0.7}, {0.4, 0.3, 1}},    // but for rounding
+                          {{1e-150, 0, 0}, {0, 1e-150, 0}, {1e-150, 1e-150, 0}},
+                          {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  Placement p;
+  for (const auto &m : flat)
+    EXPECT_TRUE(fails_with("so that it would make the mesh flat", [&] { p.matrix(m, {}); }));
+  const Vec3 huge[3] = {{1e200, 0, 0}, {0, 1e200, 0}, {0, 0, 1}};
+  EXPECT_TRUE(fails_with("is not finite: give smaller numbers", [&] { p.matrix(huge, {}); }));
+  const Vec3 tiny[3] = {{0, 1e-150, 0}, {-1e-150, 0, 0}, {1e-150, 0, 1e-150}},
+             none[3] = {{NAN, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_THROW(p.matrix(none, {}), InputError);
+  EXPECT_THROW(p.matrix(tiny, {0, INFINITY, 0}), InputError);
+  EXPECT_TRUE(p.is_identity());    // nothing of these has stayed
+  p.matrix(tiny, {});              // the determinant is below the smallest double, and not 0
+  EXPECT_EQ(p.apply(Vec3{0, 1, 0}).x, 1e-150);
+}
+
+TEST(placement, a_part_that_keeps_its_size_is_known)
+{
+  Placement p;
+  p.rotate({1, 2, 3}, 40);
+  p.move({1, 2, 3});
+  EXPECT_FALSE(p.stretches());
+  p.scale({1, 1, 1.001});
+  EXPECT_TRUE(p.stretches());
+}
+
 TEST(placement, overflow_names_the_file_and_the_facet)
 {
   const auto error = error_of([] {

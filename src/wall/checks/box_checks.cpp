@@ -111,14 +111,11 @@ void BoxChecks::check_small(const MeshPart &m, const PeriodicBox &box, Real radi
   Vec3 size = extents(m);
   if (box.dimension == 2) size.z = 0;    // an outline may be of any thickness
   if (norm(size) >= radius) return;
-  const std::vector<PlacementStep> &steps = m.spec.placement.steps();
-  const bool is_scaled = std::any_of(steps.begin(), steps.end(), [](const PlacementStep &step) {
-    return step.kind == PlacementStep::scale;
-  });
-  const std::string units = !is_scaled ? "the file is probably in different units: add a scale"
-                                       : std::string("the file is probably in ") +
-                                             host_.names().units + ", and the scale in '" +
-                                             placement_text(m.spec.placement) + "' is not needed";
+  const std::string units = !m.spec.placement.stretches()
+                                ? "the file is probably in different units: add a scale"
+                                : std::string("the file is probably in ") + host_.names().units +
+                                      ", and the scale in '" + placement_text(m.spec.placement) +
+                                      "' is not needed";
   host_.warn(named(
       m, "the mesh is " + number_text(norm(size)) + " across, and spheres have radius " +
              number_text(radius) + ": " + units +

@@ -102,17 +102,28 @@ class SpecCheck {
       check_laws(k);
       for (const MeshRule &rule : kMeshRules)
         if (rule.breaks(wall_, mesh)) refuse(k, rule.keyword, rule.text);
-      try {
-        check_body(mesh.body);
-      } catch (const InputError &e) {
-        refuse(k, "body", e.what());
-      }
+      check_of_body(k, [&] { check_body(mesh.body); });
       for (std::size_t i = 0; i < k; i++) check_apart(i, k);
     }
   }
 
+  void check_begin() const
+  {
+    for (std::size_t k = 0; k < wall_.meshes.size(); k++)
+      check_of_body(k, [&] { check_limits(wall_.meshes[k].body.drive, 0); });
+  }
+
  private:
-  // "mesh 2 'lid.stl'"
+  template <class Check>
+  void check_of_body(std::size_t k, const Check &check) const
+  {
+    try {
+      check();
+    } catch (const InputError &e) {
+      refuse(k, "body", e.what());
+    }
+  }
+
   std::string name_of(std::size_t k) const
   {
     const std::string &name = wall_.meshes[k].name;
@@ -234,6 +245,11 @@ class SpecCheck {
 void check_spec(const WallSpec &wall)
 {
   SpecCheck(wall).check();
+}
+
+void check_begin(const WallSpec &wall)
+{
+  SpecCheck(wall).check_begin();
 }
 
 }    // namespace lsdcd

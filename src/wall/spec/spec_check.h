@@ -11,5 +11,7 @@ namespace lsdcd {
 // Throws InputError, which names the mesh and the keyword, where a wall cannot be made of this. That each number is in its own
 // range is for those who read it.
 void check_spec(const WallSpec &wall);
+// Throws where a body cannot begin where its mesh is: of a wall that no saved state follows, which may have it elsewhere.
+void check_begin(const WallSpec &wall);
 
 }    // namespace lsdcd

@@ -23,11 +23,16 @@ std::string with_comma(const std::string &list, const std::string &next)
 std::string step_text(const PlacementStep &step)
 {
   const Vec3 &v = step.vector;
+  std::string text;
   switch (step.kind) {
     case PlacementStep::scale:
       return "scale " + (v.x == v.y && v.y == v.z ? number_text(v.x) : vector_text(v));
     case PlacementStep::rotate:
       return "rotate " + vector_text(v) + " " + number_text(step.degrees);
+    case PlacementStep::matrix:
+      text = "matrix";
+      for (int k = 0; k < 3; k++) text += " " + vector_text(step.row[k]) + " " + number_text(v[k]);
+      return text;
     default:
       return "move " + vector_text(v);
   }
