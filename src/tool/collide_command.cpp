@@ -24,7 +24,8 @@ namespace {
 
 struct CollideOptions {
   std::string wall, body, poses, output, segments, device = "auto";
-  std::vector<double> pose, scale, body_scale;
+  std::vector<double> pose;
+  PlacementOptions place, body_place = {"--body-", {}, {}};
   double weld = -1, cell = 0, memory = 0;
   int nearest = 0, threads = 0;
   bool json = false, progress = false;
@@ -159,8 +160,8 @@ void collide(const CollideOptions &o)
   std::unique_ptr<PairWriter> pairs, segments;
   if (!o.output.empty()) pairs = open_pairs(o.output);
   if (!o.segments.empty()) segments = open_segments(o.segments);
-  const WeldedMesh wall = load_wall(o.wall, o.scale, o.weld),
-                   body = load_mesh(o.body, o.body_scale, o.weld, "--body-scale");
+  const WeldedMesh wall = load_wall(o.wall, o.place, o.weld),
+                   body = load_mesh(o.body, o.body_place, o.weld);
   MeshCollisionSettings settings;
   settings.cell = o.cell;
   settings.nearest = o.nearest;
@@ -187,9 +188,8 @@ void add_options(Command &command, CollideOptions &o)
   command.option("-o,--output", o.output, "pairs of triangles that meet, to a .csv file");
   command.option("--segments", o.segments,
                  "where they cut each other, to a .csv file or lines for ParaView, .vtp");
-  add_scale_option(command, o.scale, "--scale", "scale of the wall: one factor, or three (x y z)");
-  add_scale_option(command, o.body_scale, "--body-scale",
-                   "scale of the body: one factor, or three");
+  add_placement_options(command, o.place, "wall");
+  add_placement_options(command, o.body_place, "body");
   add_weld_option(command, o.weld);
   command.option("--grid", o.cell, "cell length (default: the median edge of the body)")
       .check(above_zero);

@@ -26,7 +26,7 @@ const std::map<std::string, double> kMetres = {{"m", 1},     {"cm", 1e-2},   {"m
 
 struct ConvertOptions {
   std::string file, output;
-  std::vector<double> scale;
+  PlacementOptions place;
   std::string units = "m";
   bool floats = false, json = false;
 };
@@ -43,9 +43,12 @@ void run(const ConvertOptions &o)
 {
   check_mesh_name(o.output);    // before the work
   check_outputs({{"--output", o.output}}, {o.file});
+  PlacementOptions place = o.place;
+  if (place.scale.empty()) place.scale = {kMetres.at(o.units)};
+  const Placement placement = placement_of(place);
   ReadMesh read = read_mesh(o.file);
   TriangleSoup &soup = read.soup;
-  apply_scale(soup, o.scale.empty() ? std::vector<double>{kMetres.at(o.units)} : o.scale);
+  placement.apply(soup);
   if (o.floats)
     for (Vec3 &corner : soup.corners) corner = rounded_as_in_stl(corner);
   // No command would read it again.
@@ -86,7 +89,7 @@ void add_convert_command(Command &program)
       "Example:\n  lsdcd convert wall.obj --units mm -o wall.stl");
   command.option("file", o->file, "mesh, .stl, .obj, .ply or .off").required();
   command.option("-o,--output", o->output, "mesh to write, of the same formats").required();
-  Option scale = add_scale_option(command, o->scale);
+  Option scale = add_placement_options(command, o->place, "mesh");
   command
       .option("--units", o->units,
               "what a length of 1 is in the file: m, cm, mm, um, in or ft; written in metres")

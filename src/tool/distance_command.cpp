@@ -27,7 +27,7 @@ namespace {
 
 struct DistanceOptions {
   std::string mesh, points, output, device = "auto";
-  std::vector<double> scale;
+  PlacementOptions place;
   double weld = -1;
   double radius = 0;    // 0: any distance
   std::size_t block = 1 << 18;
@@ -155,7 +155,7 @@ void distance(const DistanceOptions &o)
   const auto reader = open_points(o.points);
   open_answers(o.output, false,
                SideKind::none);    // throws before the work if it cannot be written
-  const WeldedMesh mesh = load_wall(o.mesh, o.scale, o.weld);
+  const WeldedMesh mesh = load_wall(o.mesh, o.place, o.weld);
   Progress progress(o.progress);
   const auto answers = make_point_answers(
       mesh, o.radius, o.device, o.estimate_sides,
@@ -183,7 +183,7 @@ void add_distance_command(Command &program)
       .option("--radius,--cutoff", o->radius,
               "points at this distance or farther count as infinitely far (default: no limit)")
       .check(above_zero);
-  add_scale_option(command, o->scale);
+  add_placement_options(command, o->place, "mesh");
   add_weld_option(command, o->weld);
   command.option("--device", o->device, "device that computes")
       .one_of({"auto", "cpu", "cuda"})

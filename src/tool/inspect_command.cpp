@@ -18,7 +18,7 @@ namespace {
 
 struct InspectOptions {
   std::string file;
-  std::vector<double> scale;
+  PlacementOptions place;
   double weld = -1, radius = 0, length = 0, memory = 0;
   bool json = false, progress = false;
 };
@@ -42,7 +42,7 @@ nlohmann::json as_json(const GridReport &r)
 
 void inspect(const InspectOptions &o)
 {
-  WeldedMesh mesh = load_mesh(o.file, o.scale, o.weld);
+  WeldedMesh mesh = load_mesh(o.file, o.place, o.weld);
   if (mesh.report.oriented) note_meetings(mesh, meets_itself(mesh));
   if (o.json)
     print_json(stdout, as_json(mesh.report));
@@ -53,7 +53,7 @@ void inspect(const InspectOptions &o)
 
 void grid(const InspectOptions &o)
 {
-  const WeldedMesh mesh = load_wall(o.file, o.scale, o.weld);
+  const WeldedMesh mesh = load_wall(o.file, o.place, o.weld);
   StepGridSettings settings;
   settings.length = o.length;
   settings.cutoff = o.radius;
@@ -73,7 +73,7 @@ void grid(const InspectOptions &o)
 void add_mesh_options(Command &command, InspectOptions &o)
 {
   command.option("file", o.file, "mesh: .stl, .obj, .ply or .off").required();
-  add_scale_option(command, o.scale);
+  add_placement_options(command, o.place, "mesh");
   add_weld_option(command, o.weld);
   command.flag("--json", o.json, "print JSON");
 }

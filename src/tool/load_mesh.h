@@ -6,39 +6,28 @@
 
 #include "mesh/io/read_mesh.h"
 #include "mesh/measure_mesh.h"
-#include "mesh/placement.h"
 #include "mesh/welded_mesh.h"
+#include "tool/placement_options.h"
 
 #include <string>
-#include <vector>
 
 namespace lsdcd {
 
-// `scale` holds no factor, one, or three. Throws InputError, or what wrong words of a command throw.
-inline void apply_scale(TriangleSoup &soup, const std::vector<double> &scale,
-                        const char *option = "--scale")
+// `tolerance` is that of weld(). Throws InputError, or what wrong words of a command throw.
+inline WeldedMesh load_mesh(const std::string &file, const PlacementOptions &place,
+                            double tolerance)
 {
-  if (scale.size() == 2) throw_usage_error(option, "takes one factor or three (x y z)");
-  Placement placement;
-  if (scale.size() == 1) placement.scale({scale[0], scale[0], scale[0]});
-  if (scale.size() == 3) placement.scale({scale[0], scale[1], scale[2]});
-  placement.apply(soup);
-}
-
-// `tolerance` is that of weld(). Throws InputError.
-inline WeldedMesh load_mesh(const std::string &file, const std::vector<double> &scale,
-                            double tolerance, const char *option = "--scale")
-{
+  const Placement placement = placement_of(place);
   TriangleSoup soup = read_mesh(file).soup;
-  apply_scale(soup, scale, option);
+  placement.apply(soup);
   return weld(soup, tolerance);
 }
 
 // Throws if it has no face: edges and points alone are no wall.
-inline WeldedMesh load_wall(const std::string &file, const std::vector<double> &scale,
+inline WeldedMesh load_wall(const std::string &file, const PlacementOptions &place,
                             double tolerance)
 {
-  WeldedMesh mesh = load_mesh(file, scale, tolerance);
+  WeldedMesh mesh = load_mesh(file, place, tolerance);
   check_has_area(mesh);
   return mesh;
 }

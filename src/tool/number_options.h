@@ -28,13 +28,6 @@ inline std::string not_zero(const std::string &word)
   return is_number(word, &value) && value != 0 ? "" : word + " is not a number other than 0";
 }
 
-inline Option add_scale_option(Command &command, std::vector<double> &scale,
-                               const char *name = "--scale",
-                               const char *help = "scale of the mesh: one factor, or three (x y z)")
-{
-  return command.option(name, scale, help).words(1, 3).check(not_zero);
-}
-
 // `weld` stays below 0 without the option.
 inline void add_weld_option(Command &command, double &weld)
 {

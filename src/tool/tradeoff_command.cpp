@@ -29,7 +29,7 @@ namespace {
 
 struct TradeoffOptions {
   std::string file, device = "auto", csv = "tradeoff.csv", plot;
-  std::vector<double> scale;
+  PlacementOptions place;
   double weld = -1, memory = 1024, below = 0;
   TradeoffSettings settings;
 };
@@ -189,7 +189,7 @@ void tradeoff(TradeoffOptions &o)
   if (o.plot.empty()) o.plot = std::filesystem::path(o.csv).replace_extension(".png").string();
   check_outputs({{"--csv", o.csv, ".csv"}, {"--plot", o.plot == "none" ? "" : o.plot, ".png"}},
                 {o.file});
-  const WeldedMesh mesh = load_wall(o.file, o.scale, o.weld);
+  const WeldedMesh mesh = load_wall(o.file, o.place, o.weld);
   AtomicFile file(o.csv);    // now, rather than fail when all is done
   std::printf("%s, %s\n", o.file.c_str(), counted(mesh.faces.size(), "triangle").c_str());
   std::printf("      grid  nearest  corner  device   missed %%  force error: mean  "
@@ -245,7 +245,7 @@ void add_tradeoff_command(Command &program)
               "contacts "
               "and all errors of forces below this")
       .check(above_zero);
-  add_scale_option(command, o->scale);
+  add_placement_options(command, o->place, "mesh");
   add_weld_option(command, o->weld);
   command
       .option("--memory", o->memory,

@@ -58,6 +58,8 @@ def test_cube(folder):
     fact("and no, which is no error", done.returncode == 0 and "collides    no" in done.stdout, done.stdout)
     scaled = told(folder, *words, "--pose", *middle, "0.75", "--body-scale", 2)
     fact("the body's scale is of the body", scaled["pairs"] == 8, scaled)
+    placed = told(folder, *words, "--pose", *middle, "0.75", "--body-matrix", 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0)
+    fact("and so is its matrix", placed["pairs"] == 8, placed)
     near = told(folder, *words, "--nearest", 1, "--grid", 1)
     fact("nearest lists say that they may miss pairs", not near["exact"] and near["uncertain_pieces"] > 0, near)
 

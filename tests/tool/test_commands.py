@@ -32,6 +32,7 @@ NO_MESH = "accuracy mesh --spheres 1000 --most-triangles 100"
 # Words, and what is printed; of --json, keys.
 GOOD = [
     ("inspect wall.stl", ["facets      12", "closed, normals point out", "clean       yes"]),
+    ("inspect wall.stl --matrix 2 0 0 5 0 0 2 6 0 -2 0 7 --json", {"facets": 12, "volume": 8, "closed": True, "clean": True}),
     ("inspect wall.stl --scale 2 --json", {"facets": 12, "volume": 8, "closed": True, "clean": True}),
     ("inspect apart.stl --weld 0.01 --json", {"vertices": 8, "closed": True}),
     ("inspect apart.stl --json", {"vertices": 9, "closed": False, "clean": True}),
@@ -139,6 +140,8 @@ BAD += [(f"{command.format(mesh)} {words}", code, said) for mesh, words, code, s
     ("line.stl", "", 1, ["line.stl", "its 1 facet has no area"], OF_A_MESH[1:6]),
     ("wall.stl", "--scale 1 2", 2, ["one factor or three"], OF_A_MESH[:4] + OF_A_MESH[5:]),
     ("wall.stl", "--scale 0", 2, ["--scale", "0 is not a number other than 0"], OF_A_MESH[:4] + OF_A_MESH[5:]),
+    ("wall.stl", "--matrix 1 0 0 0 0 1 0 0", 2, ["--matrix", "12"], OF_A_MESH[:4] + OF_A_MESH[5:]),
+    ("wall.stl", "--matrix 1 2 3 0 2 4 6 0 0 0 1 0", 2, ["--matrix: the determinant of the rows 1 2 3, 2 4 6, 0 0 1 is 0"], OF_A_MESH[:4] + OF_A_MESH[5:]),
     ("wall.stl", "--weld -1", 2, ["--weld", "-1"], OF_A_MESH[:6]),
     ("wall.stl", "--weld 9", 1, ["weld tolerance of 9"], OF_A_MESH[:6]),
 ) for command in commands]

@@ -94,6 +94,11 @@ def test_written(folder):
     normals = np.cross(got[:, 1] - got[:, 0], got[:, 2] - got[:, 0])
     fact("a mirror keeps normals out", np.all(np.einsum("ij,ij->i", normals, got.mean(axis=1)) > 0))
 
+    told(folder, "convert", "doubles.stl", "-o", "placed.obj", "--scale", 2, "--matrix", 0, 1, 0, 5, 1, 0, 0, 6, 0, 0, 1, 7)
+    got = read_obj((folder / "placed.obj").read_bytes())[0]
+    wanted = (2 * DOUBLES)[..., [1, 0, 2]] + (5, 6, 7)    # a mirror, which swaps two corners
+    fact("a matrix acts behind the scale", np.array_equal(got[:, [0, 2, 1]], wanted), got - wanted)
+
     done = run(folder, "convert", "floats.stl", "-o", "out.ply")
     fact("people get a line", done.returncode == 0 and f"out.ply: {len(FLOATS)} facets from (-0.3" in done.stdout,
          done.stdout)
