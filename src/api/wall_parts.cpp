@@ -11,6 +11,7 @@
 #include "wall/spec/spec_text.h"
 #include "wall/spec/spec_words.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
@@ -202,20 +203,6 @@ std::string text_of(const Wear &wear, const WearDeform &deform)
               : "");
 }
 
-// Adds a text, and where it does not have all digits `numbers`, which have.
-void add(const std::string &name, const std::string &of, const std::string &text,
-         const std::string &numbers, WallParts &to)
-{
-  to.push_back({name + of, text});
-  if (!numbers.empty()) to.push_back({"exact " + name + " '" + text + "'" + of, numbers});
-}
-
-bool is_compared(OfState rule, const WallSpec &wall)
-{
-  return rule == OfState::compared || (rule == OfState::with_nearest && wall.nearest > 0) ||
-         (rule == OfState::with_wear && wall.wears());
-}
-
 template <class Kind, class T>
 std::string text_of(const Kind &kind, const T &value)
 {
@@ -223,6 +210,17 @@ std::string text_of(const Kind &kind, const T &value)
     return kind.words[static_cast<std::size_t>(value)];
   else
     return text_of(static_cast<Real>(value));
+}
+
+// Adds a setting by its rule; "any" where it changes no number of this wall.
+void add_setting(OfState rule, const WallSpec &wall, const std::string &name,
+                 const std::string &text, WallParts &parts)
+{
+  const bool counts = rule == OfState::compared ||
+                      (rule == OfState::with_nearest && wall.nearest > 0) ||
+                      (rule == OfState::with_wear && wall.wears());
+  const bool may_count = counts || rule == OfState::with_nearest || rule == OfState::with_wear;
+  if (may_count) parts.push_back({name, counts ? text : "any"});
 }
 
 std::string steps_text(int every)
@@ -239,10 +237,11 @@ void add_made(const WallSpec &wall, std::size_t k, WallParts &parts)
   parts.push_back({"placement" + of, text_of(mesh.placement)});
   parts.push_back({"law" + of, text_of(mesh.laws)});
   parts.push_back({"surface velocity" + of, text_of(mesh.surface)});
-  if (mesh.has_nodes)
-    parts.push_back({"pressure" + of, text_of(fixed(mesh.pressure, mesh.pressure_input))});
-  if (mesh.has_temperature)
-    parts.push_back({"temperature" + of, text_of(fixed(mesh.temperature, mesh.temperature_input))});
+  parts.push_back({"pressure" + of,
+                   mesh.has_nodes ? text_of(fixed(mesh.pressure, mesh.pressure_input)) : "none"});
+  parts.push_back(
+      {"temperature" + of,
+       mesh.has_temperature ? text_of(fixed(mesh.temperature, mesh.temperature_input)) : "none"});
   InputsText inputs(wall.inputs);
   inputs.add(mesh.surface_input);
   inputs.add(mesh.pressure_input);
@@ -253,7 +252,7 @@ void add_made(const WallSpec &wall, std::size_t k, WallParts &parts)
        text_of(mesh.torque_about) + (mesh.torque_about_mesh ? ", which moves with it" : "")});
   parts.push_back({"mean of the fields" + of, steps_text(mesh.fields.every)});
 #define LSDCD_PART(member, kind, rule, name, ...)                                                  \
-  if (is_compared(OfState::rule, wall)) parts.push_back({name + of, text_of(kind, mesh.member)});
+  add_setting(OfState::rule, wall, name + of, text_of(kind, mesh.member), parts);
   LSDCD_MESH_SETTINGS(LSDCD_PART)
 #undef LSDCD_PART
 }
@@ -269,6 +268,37 @@ std::string text_of(const PeriodicBox &box)
   return text.empty() ? "not periodic" : text;
 }
 
+using WallPart = WallParts::value_type;
+constexpr const char *kOfMeshes = " of meshes[";
+
+const WallPart *find_part(const WallParts &parts, const std::string &name)
+{
+  for (const WallPart &part : parts)
+    if (part.front() == name) return &part;
+  return nullptr;
+}
+
+// The text of all digits; empty: the other one has them.
+std::string exact_text_of(const WallPart &part)
+{
+  return part.size() > 2 ? part[2] : "";
+}
+
+// "exact motion 'linear 0 0 1' of meshes[1]", of the part "motion of meshes[1]".
+std::string exact_name_of(const WallPart &part)
+{
+  const std::size_t end = std::min(part[0].find(kOfMeshes), part[0].size());
+  return "exact " + part[0].substr(0, end) + " '" + part[1] + "'" + part[0].substr(end);
+}
+
+// Returns whether a wall has the mesh that a part is of, or the part is of no mesh.
+bool has_mesh_of(const WallParts &wall, const std::string &name)
+{
+  const std::size_t at = name.find(kOfMeshes);
+  if (at == std::string::npos) return true;
+  return find_part(wall, "motion" + name.substr(at)) != nullptr;
+}
+
 }    // namespace
 
 WallParts made_parts(const Wall &wall, const PeriodicBox &box)
@@ -280,7 +310,7 @@ WallParts made_parts(const Wall &wall, const PeriodicBox &box)
                      {"grains", spec.shapes ? "of any shape" : "spheres"},
                      {"periodic box", text_of(box)}};
 #define LSDCD_PART(member, kind, rule, name, ...)                                                  \
-  if (is_compared(OfState::rule, spec)) parts.push_back({name, text_of(kind, spec.member)});
+  add_setting(OfState::rule, spec, name, text_of(kind, spec.member), parts);
   LSDCD_WALL_SETTINGS(LSDCD_PART)
 #undef LSDCD_PART
   for (std::size_t k = 0; k < spec.meshes.size(); k++) add_made(spec, k, parts);
@@ -301,10 +331,10 @@ WallParts set_parts(const Wall &wall)
   for (std::size_t k = 0; k < spec.meshes.size(); k++) {
     const Servo &servo = spec.meshes[k].motion.servo();
     const std::string of = " of " + element("meshes", k);
-    add("motion", of, motion_of(spec.meshes[k], spec.inputs),
-        numbers_of(spec.meshes[k].motion.terms()), parts);
-    add("servo", of, servo.present ? servo_text(servo, spec.inputs) : "none", numbers_of(servo),
-        parts);
+    parts.push_back({"motion" + of, motion_of(spec.meshes[k], spec.inputs),
+                     numbers_of(spec.meshes[k].motion.terms())});
+    parts.push_back(
+        {"servo" + of, servo.present ? servo_text(servo, spec.inputs) : "none", numbers_of(servo)});
     const BodySpec &body = spec.meshes[k].body;
     parts.push_back({"body" + of, text_of(body)});
     InputsText inputs(spec.inputs);
@@ -319,11 +349,20 @@ WallParts set_parts(const Wall &wall)
 std::string differences(const WallParts &is, const WallParts &was)
 {
   std::string text;
-  for (const std::vector<std::string> &part : is)
-    for (const std::vector<std::string> &other : was)
-      if (part.size() == 2 && other.size() == 2 && part[0] == other[0] && part[1] != other[1])
-        text += (text.empty() ? "the " : "; the ") + part[0] + " is " + part[1] + " and was " +
-                other[1];
+  const auto add = [&](const std::string &name, const std::string &one, const std::string &other) {
+    if (one != other)
+      text += (text.empty() ? "the " : "; the ") + name + " is " + one + " and was " + other;
+  };
+  const WallPart none = {"", "none"};
+  for (const WallPart &part : is) {
+    const WallPart *const other = find_part(was, part[0]);
+    if (!other && !has_mesh_of(was, part[0])) continue;
+    const WallPart &before = other ? *other : none;
+    add(part[0], part[1], before[1]);
+    if (part[1] == before[1]) add(exact_name_of(part), exact_text_of(part), exact_text_of(before));
+  }
+  for (const WallPart &part : was)
+    if (!find_part(is, part[0]) && has_mesh_of(is, part[0])) add(part[0], none[1], part[1]);
   return text;
 }
 

@@ -127,6 +127,8 @@ Saved read_saved(const Real *numbers, std::size_t n)
   all.find(kInputNames, 1, saved.input_names);
   saved.state = WallState::from(all);
   if (all.numbers().size() != n) throw StateError("the data of the wall are too long");
+  for (const std::vector<std::string> &part : saved.parts)
+    if (part.size() < 2) throw StateError("the data of the wall have a part without a text");
   for (const std::vector<Real> &sphere : saved.spheres)
     if (sphere.empty()) throw StateError("the data of the wall have a sphere without a number");
   const bool has_names = saved.input_names.size() == 1;

@@ -274,7 +274,23 @@ TEST_F(library_words, numbers_of_a_law_are_those_that_it_has)
     const char *text;
   } rows[] = {
       {"hooke/history", {1e4, 5e3, 20, 0.5, 1}, "dampflag must be a number, not 'mesh'"},
-      {"hooke/history", {1e4, 5e3, 20, 0, 0.5, 1, 0}, "'0' is not a keyword"},
+      {"hooke/history",
+       {1e4, 5e3, 20, 0, 0.5, 1, 0},
+       "in 'hooke/history', the number '0' ($law, number 7) is one more than expected"},
+      {"granular hertz",
+       {2000, 20, 5},
+       "in 'granular hertz', the number '5' ($law, number 3) is one more than expected"},
+      {"hooke/history 1e4 5e3 20 0 0.5 1 mesh $floor rolling cdt",
+       {0.1, 0.2},
+       "in 'rolling', the number '0.2' ($law, number 2) is one more than expected"},
+      {"hooke/history 1e4 5e3 20 0 0.5 1 mesh $floor weld",
+       {1, 2},
+       "'2' ($law, number 2) is not a keyword"},
+      {"hooke/history", {-1e4, 5e3, 20, 0, 0.5, 1}, "kn = -10000 ($law, number 1) is out of range"},
+      {"hooke/history",
+       {1e4, 5e3, NAN, 0, 0.5, 1},
+       "gamman must be a number, not 'NULL' ($law, number 3)"},
+      {"hooke/history 1e4 5e3 20 0 0.5", {7}, "dampflag = 7 ($law) is out of range"},
       {"granular hertz 1e4 0 tangential mindlin",
        {NAN, 1, 0.5},
        "kt can be NULL only where the normal sub-model has E and nu, not with 'hertz'"},
@@ -415,6 +431,50 @@ TEST_F(library_words, saved_data_are_of_a_wall_with_the_same_digits_alone)
     EXPECT_EQ(text.empty(), !*row.text) << text << row.text;
     EXPECT_TRUE(has(text, row.text));
   }
+}
+
+// As of a version that compares more, or less.
+TEST_F(library_words, saved_data_with_a_part_more_or_less_are_of_another_wall)
+{
+  const std::vector<double> saved = wall_of(kFloorWords).save();
+  const lsdcd::State all(lsdcd::WallState::kKind, saved.data(), saved.size());
+  std::vector<std::vector<std::string>> parts;
+  all.read("parts", 1, parts);
+  const auto with_parts = [&](const std::vector<std::vector<std::string>> &of) {
+    lsdcd::State state = lsdcd::WallState::from(all).blocks();
+    state.add("parts", 1, of);
+    state.add("springs of spheres", 1, std::vector<std::vector<double>>());
+    state.add("step", 1, std::int64_t(0));
+    return state.numbers();
+  };
+  const auto text_with = [&](const std::vector<std::vector<std::string>> &of) {
+    return text_of([&] { wall_of(kFloorWords).restore(with_parts(of)); });
+  };
+  EXPECT_EQ(text_with(parts), "");
+  auto more = parts, fewer = parts, without_text = parts;
+  more.push_back({"gravity", "0 0 -1"});
+  EXPECT_TRUE(has(text_with(more), "the gravity is none and was 0 0 -1. "));
+  const auto law =
+      std::find_if(fewer.begin(), fewer.end(), [](const auto &p) { return p[0] == "law"; });
+  ASSERT_NE(law, fewer.end());
+  fewer.erase(law);
+  EXPECT_TRUE(has(text_with(fewer), "the law is hooke"));
+  EXPECT_TRUE(has(text_with(fewer), " and was none. "));
+  without_text.push_back({"gravity"});
+  EXPECT_TRUE(has(text_with(without_text), "the data of the wall have a part without a text"));
+}
+
+// Parts of a mesh that only one has are told by their number.
+TEST_F(library_words, saved_data_of_a_wall_with_more_meshes_are_of_another_wall)
+{
+  const std::string two = kFloorWords + "mesh $floor name lid move 0 0 9";
+  const std::vector<double> of_one = wall_of(kFloorWords).save(), of_two = wall_of(two).save();
+  EXPECT_TRUE(
+      begins(text_of([&] { wall_of(two).restore(of_one); }),
+             "these are numbers of a different wall: the number of meshes is 2 and was 1. "));
+  EXPECT_TRUE(
+      begins(text_of([&] { wall_of(kFloorWords).restore(of_two); }),
+             "these are numbers of a different wall: the number of meshes is 1 and was 2. "));
 }
 
 TEST_F(library_words, what_fits_of_saved_data_is_taken_by_a_wall_with_another_law)
