@@ -62,7 +62,8 @@ class OneProcess:
 FLOOR, WIDER, BOX = plate(4.0), plate(4.5), box()
 TABLE = np.array([[0, 0, 0, 0, 0], [0.05, 0.1, 0, 0, 0.002], [0.1, 0.3, 0, 0.01, 0]])
 VALUES = {"floor": FLOOR, "box": BOX, "below": WIDER, "rows": TABLE, "shifts": TABLE[:, [0, 2, 3, 4]],
-          "period": np.vstack([TABLE, [0.15, 0, 0, 0, 0]]), "deck": FLOOR, "steel": [1e4, 3e3, 5, None, 0.5, 1], "cache": FOLDER / "a grid.bin"}
+          "period": np.vstack([TABLE, [0.15, 0, 0, 0, 0]]), "deck": FLOOR, "steel": [1e4, 3e3, 5, None, 0.5, 1], "cache": FOLDER / "a grid.bin",
+          "place": np.hstack([1.1 * np.eye(3), np.zeros((3, 1))])}
 INPUT = 0.05    # what each v_NAME is
 for name, mesh in (("floor", FLOOR), ("wider", WIDER)):
     write_stl(FOLDER / f"{name}.stl", mesh.vertices[mesh.faces])
@@ -108,6 +109,7 @@ BASES = {
     "gap": f"{STYLE} mesh {FOLDER}/gap.stl rmax 0.6 weld 0|0.1", "named": on("floor", "name deck|=another"),
     "valued": on("floor", law="hooke/history $steel"),
     "placed": on("floor", f"scale 1.1|1.2 1|1.2 1|1.5 rotate {UP} 30|31 move 0|0.1 0|0.1 0|-0.01"), "scaled": on("floor", "scale 1.1|1.2"),
+    "by_matrix": on("floor", "matrix 1|1.1 0|0.1 0|0.1 0|0.1 0|0.1 1|1.1 0|0.1 0|0.1 0|0.1 0|0.1 1|1.1 0|-0.01"),
     # Laws.
     "hooke": on("floor", law="hooke|hooke/history 1e4|1.1e4 3e3|2e3 5|6 4|3 0.5|0.4 1|0"),
     "history": on("floor", law="hooke/history|hertz/history 1e4|1.1e4 3e3|2e3|NULL 5|6 NULL|=2.5|2 0.5|0.4 1|0"),
@@ -204,6 +206,7 @@ MORE = [
     ("floor", "log brief", EXACT), ("floor", "average 8", REFUSED), ("floor", "each_contact", EXACT), ("floor", "energy", REFUSED),
     ("floor", "impacts 0.01", REFUSED), ("floor", "shapes", REFUSED), ("floor", "mesh $box", REFUSED), ("floor", "name another", EXACT),
     ("floor", "scale 1 1 2 move 0 0 0.25", REFUSED), ("floor", "scale 1", EXACT), ("floor", "move 0 0 0", EXACT), ("floor", "rotate 0 0 1 0", EXACT),
+    ("floor", "matrix 1 0 0 0 0 1 0 0 0 0 1 0", EXACT), ("floor", "matrix 0.5 0 0 0 0 1 0 0 0 0 1 0 scale 2 1 1", EXACT),
     ("floor", f"law {STYLE}", REFUSED), ("floor", f"law {STYLE.replace('0.5', '0.4')}", REFUSED), ("floor", f"law types 1 {STYLE}", REFUSED),
     ("floor", f"law types 1 {STYLE} law types 2* {STYLE.replace('1e4', '1.2e4')}", REFUSED), ("floor", "motion caller", REFUSED),
     ("floor", "motion linear 0.1 0 0", REFUSED), ("linear", "motion linear 0.1 0 0", REFUSED), ("floor", "wiggle z 0.01 0.5", REFUSED),
@@ -224,6 +227,7 @@ MORE = [
     ("table", "cubic", EXACT), ("table", "linear", REFUSED), ("table", "degrees", REFUSED), ("table_period", "repeat", REFUSED)]
 # Words of a base, and others in their place.
 REPLACED = [
+    ("scaled", "scale 1.1", "matrix $place", EXACT), ("scaled", "scale 1.1", "matrix 1.1 0 0 0 0 1.1 0 0 0 0 1.2 0", REFUSED),
     ("floor", "$floor", "$deck", EXACT), ("floor", "$floor", f"{FOLDER}/floor.stl", EXACT), ("floor", "$floor", f"{FOLDER}/wider.stl", REFUSED),
     ("valued", "$steel", "1e4 3e3 5 NULL 0.5 1", EXACT), ("floor", "0.5 1 mesh", "0.5 1 limit_damping mesh", REFUSED),
     ("slips", "twisting none", "limit_damping", REFUSED), ("slips", "twisting none", "", EXACT),

@@ -149,7 +149,7 @@ void BodyMover::set_body(const BodySpec &to)
     as.begin_from(body_);
   }
   if (place_is_known_) check_limits(now, as);
-  was_held_ = Held{reaction(), stop_force()};
+  was_held_ = JointLoad{reaction(), stop_force()};
   go_on(now, as);
   if (now.drive.lo != was.drive.lo || now.drive.hi != was.drive.hi) ask_about_degrees();
 }
@@ -393,7 +393,12 @@ void BodyMover::check_snapshot() const
 
 void BodyMover::save(MeshState &to) const
 {
-  to.body = {true, body_spec().mass, body_spec().joint, body_.state(), load_};
+  to.body = {true,
+             body_spec().mass,
+             body_spec().joint,
+             body_.state(),
+             load_,
+             {{reaction(), stop_force()}}};
 }
 
 RigidBody BodyMover::continued(const BodyState &was) const
@@ -429,6 +434,7 @@ void BodyMover::restore(const BodyState &was)
   place_is_known_ = was.has_begun;
   go_on(body_spec(), continued(was));
   load_ = was.load;
+  if (!was.of_joint.empty()) was_held_ = was.of_joint.front();
   if (!is_same(was))
     host_.warn(
         named("the " + saved +

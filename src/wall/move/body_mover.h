@@ -120,12 +120,8 @@ class BodyMover {
   Mobility mobility_;
   Real most_mobility_ = 0, bound_of_mobility_ = 0;    // of faces; of any point
   Wrench load_;
-  // In the last step, by a joint that another one has replaced since.
-  struct Held {
-    Wrench reaction;
-    Real stop_force;
-  };
-  std::optional<Held> was_held_;
+  std::optional<JointLoad>
+      was_held_;    // of a joint that another one has replaced since, or of a saved state
   bool place_is_known_ = false;    // by a step or a saved state; a new body may get one yet
   bool pending_ = false;
   Real dt_ = 0;    // of the step that is pending

@@ -35,13 +35,20 @@ struct MotionState {
   bool was_posed() const { return !moves() && !is_same_place(start, placed); }
 };
 
+// What the joint of a body and its stop did in the last step, whatever holds the body from the next one on.
+struct JointLoad {
+  Wrench reaction;
+  Real stop_force = 0;
+};
+
 // A body in a saved state.
 struct BodyState {
   bool present = false;
   MassProperties mass;
   Joint joint;
   RigidState state;
-  Wrench load;    // of the last step, by which the next one begins
+  Wrench load;                        // of the last step, by which the next one begins
+  std::vector<JointLoad> of_joint;    // of the last step: one; none: data without it
   bool has_begun =
       true;    // false: it is where it was made, which its first step asks about; not in files
 };

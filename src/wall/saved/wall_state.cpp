@@ -134,6 +134,12 @@ void each_number(Numbers &numbers, RigidState &s)
 }
 
 template <class Numbers>
+void each_number(Numbers &numbers, JointLoad &j)
+{
+  numbers(j.reaction, j.stop_force);
+}
+
+template <class Numbers>
 void each_number(Numbers &numbers, BodyState &b)
 {
   numbers(b.present, b.mass.mass, b.mass.centre, b.mass.inertia, b.joint.kind, b.joint.point,
@@ -193,6 +199,7 @@ State WallState::blocks() const
     if (m.loads.time > 0 || !m.loads.rows.empty()) mesh.add("loads", 1, m.loads);
     if (m.body.present) mesh.add("body", 1, m.body);
     if (m.body.present) mesh.add("load of body", 1, m.body.load);
+    if (!m.body.of_joint.empty()) mesh.add("load of joint", 1, m.body.of_joint);
     if (!m.nodes.names.empty()) mesh.add("nodes", 1, m.nodes);
     if (!m.nodes.places.empty()) mesh.add("places of nodes", 1, m.nodes.places);
     if (!m.nodes.velocities.empty()) mesh.add("velocities of nodes", 1, m.nodes.velocities);
@@ -234,6 +241,7 @@ WallState WallState::from(const State &state)
     mesh.find("loads", 1, m.loads);
     mesh.find("body", 1, m.body);
     mesh.find("load of body", 1, m.body.load);
+    mesh.find("load of joint", 1, m.body.of_joint);
     mesh.find("nodes", 1, m.nodes);
     mesh.find("places of nodes", 1, m.nodes.places);
     mesh.find("velocities of nodes", 1, m.nodes.velocities);
