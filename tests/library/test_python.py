@@ -859,10 +859,10 @@ def test_what_begins_wrongly():
         return lsdcd.Wall(f"hooke 1e4 0 0 0 0 0 mesh $floor {words}", floor=FLOOR, **values)
 
     body, none, zero = "body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 joint slider 0 0 1 limits", np.zeros((0, 3)), np.zeros(0)
-    for limits in ("1 2", "-2 -1"):    # which the first step refuses
-        beyond = made(f"{body} {limits}")
-        refused(f"limits {limits} do not hold where the body begins", f"the limits {limits} do not contain 0, which is where the body begins",
-                lambda: beyond.step(none, none, none, zero, zero, none.copy(), none.copy(), 1e-3), lsdcd.Error)
+    for limits in ("1 2", "-2 -1"):
+        says = f"in 'body', the limits {limits} do not contain 0, which is where the body begins"
+        refused(f"limits {limits} do not hold where the body begins", says, lambda: made(f"{body} {limits}"), lsdcd.Error)
+        refused("the check says so, too", says, lambda: lsdcd.Wall.check(f"hooke 1e4 0 0 0 0 0 mesh $floor {body} {limits}", floor=FLOOR), lsdcd.Error)
     wall = made(f"{body} -1 1")
     wall.change("body limits 1 2")    # for a state whose body is there
     refused("a body cannot begin outside of them", "the limits 1 2 do not contain 0", lambda: wall.step(

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """A wall by the words of the fix: the same words make the same wall in a script and in the library, to the last bit of forces; values of the
-program in words; what is refused, with the text of the script. LSDCD_WALLS says how many random walls there are (20)."""
+program in words; meshes placed by a matrix; values that are refused. test_wrong_words has words that are. LSDCD_WALLS says how many random walls there are (20)."""
 import os
 import random
 import re
@@ -140,24 +140,40 @@ def test_random_walls(folder, monkeypatch):
 STYLE = "hooke/history 1000 300 20 NULL 0.5 1"
 
 
+PLACEMENTS = (    # the same place by words and by a matrix
+    ("floor.stl scale 2 rotate 0 0 1 90 move 0.5 0 0.25", "floor.stl matrix 0 -2 0 0.5 2 0 0 0 0 0 2 0.25", 0),
+    ("block.stl scale -1 1 1 side out", "block.stl matrix -1 0 0 0 0 1 0 0 0 0 1 0 side out", 0),    # a mirror
+    ("floor.stl move 0 0 0.125 scale 1 1 2 rotate 1 0 0 180 move 0 0 0.375", "floor.stl move 0 0 0.125 matrix 1 0 0 0 0 1 0 0 0 0 2 0 rotate 1 0 0 180 move 0 0 0.375", 0),
+    ("block.stl rotate 1 2 3 40 scale 1.5 move 0 0 0.1", "block.stl matrix $turned scale 1.5 move 0 0 0.1", 1e-10))
+
+
+def rotation(axis, degrees):
+    """By Rodrigues' formula, with 0 behind each row."""
+    k, angle = np.array(axis) / np.linalg.norm(axis), np.radians(degrees)
+    cross = np.array([[0, -k[2], k[1]], [k[2], 0, -k[0]], [-k[1], k[0], 0]])
+    return np.hstack([np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross, np.zeros((3, 1))])
+
+
 @needs_lmp
-@pytest.mark.parametrize("words", ("mesh", "mesh floor.stl mesh", "mesh floor.stl sacle 2", "mesh floor.stl scale 0", "mesh floor.stl motion linear 1 0",
-                                   "mesh floor.stl motion slide 1", "mesh floor.stl corner round", "mesh floor.stl wear archard 1", "mesh floor.stl nearest 0",
-                                   "mesh floor.stl body density 1 joint hinge 0 0 0 0 0 0", "mesh floor.stl name 3", "mesh floor.stl temperature 300",
-                                   "mesh floor.stl wear_factor 2", "mesh floor.stl servo force z 1", "mesh floor.stl scale 1 scale x", "mesh floor.stl energy energy",
-                                   "mesh floor.stl motion rotate 0 0 0 0 0 0 1", "mesh floor.stl law hooke 1", "mesh floor.stl friction_heat 2"))
-def test_refused_as_in_a_script(folder, words):
-    """The text of the error is the script's, but for the name of the command and for the motion caller."""
+def test_matrix(folder, monkeypatch):
+    """A mesh is where words, a matrix in words and a matrix of the program put it, in a script and in the library. Rotations that round are off by some bits
+    of a coordinate of 8, so that forces of a stiffness of 2000, and damping forces that turn by so much, are within 1e-10."""
     write_meshes(folder)
-    done = run(folder, f"{BEGIN}fix wall all wall/lsdcd {STYLE} {words}\n")
-    said = re.search(r"^ERROR: Fix wall wall/lsdcd: (.*?)(?: \([^() ]*\.cpp:\d+\))?$", done.stdout, re.M)
-    with pytest.raises(lsdcd.Error) as refused:
-        lsdcd.Wall.check(f"{STYLE} {words}")
-    wanted = said and said[1].replace("fix wall/lsdcd", "wall").replace("motion linear Vx", "motion caller | linear Vx")
-    fact("the text of the script", wanted == str(refused.value), (done.stdout[-400:], str(refused.value)))
-    with pytest.raises(lsdcd.Error) as refused_by_wall:
-        lsdcd.Wall(f"{STYLE} {words}")
-    fact("the check's is the wall's", str(refused_by_wall.value) == str(refused.value), str(refused_by_wall.value))
+    turned = rotation((1, 2, 3), 40)
+    in_words = " ".join("%.17g" % number for number in turned.ravel())
+    walls = [f"{STYLE} mesh {words.replace('$turned', in_words)}" for pair in PLACEMENTS for words in pair[:2]]
+    done = run(folder, "".join(f"{BEGIN}fix wall all wall/lsdcd {words}\nrun {STEPS}\n"
+                               f"write_dump all custom {k}.dump id fx fy fz tqx tqy tqz modify sort id format float %.17g\n" for k, words in enumerate(walls)))
+    assert done.returncode == 0, done.stdout[-3000:]
+    monkeypatch.chdir(folder)
+    for k, words in enumerate(walls):
+        wanted = np.loadtxt(f"{k}.dump", skiprows=9, ndmin=2)[:, 1:]
+        fact(f"wall {k}: the bits of the script", (forces_by_library(words) == wanted).all() and wanted.any(), words)
+    for by_words, by_matrix, tolerance in PLACEMENTS:
+        wanted = forces_by_library(f"{STYLE} mesh {by_words}")
+        for value in (turned, turned.ravel().tolist()):
+            found = forces_by_library(f"{STYLE} mesh {by_matrix}", {"turned": value} if "$turned" in by_matrix else None)
+            fact(f"{by_matrix}: as by {by_words}", abs(found - wanted).max() <= tolerance, abs(found - wanted).max())
 
 
 @needs_lmp
@@ -181,7 +197,7 @@ def test_a_word_of_programs_behind_a_material():
     (f"{STYLE} mesh $floor", {"floor": MESH, "lid": MESH}, r"the value 'lid' is given, and no word is \$lid"),
     (f"{STYLE} mesh x$floor", {"floor": MESH}, r"'x\$floor': \$NAME is a word of its own"),
     (f"{STYLE} mesh $floor", {"floor": [[0, 0], [1, 1]]}, r"in 'mesh', \$floor is no mesh: make one of the numbers"),
-    (f"{STYLE} mesh floor.stl cache $floor", {"floor": MESH}, r"'\$floor' is a mesh or rows, which stand behind 'mesh' or 'motion table' alone"),
+    (f"{STYLE} mesh floor.stl cache $floor", {"floor": MESH}, r"'\$floor' is a mesh or rows, which stand behind 'mesh', 'motion table' or 'matrix' alone"),
     (f"{STYLE} mesh $floor weld 0.1", {"floor": MESH}, r"in 'weld', the mesh \$floor was welded when it was made"),
     (f"{STYLE} mesh $floor motion table $floor", {"floor": MESH}, r"in 'motion', \$floor has no rows"),
     (f"{STYLE} mesh $floor motion table $rows", {"floor": MESH, "rows": [[0, 0, 0, 0], [0, 1, 1, 1]]}, r"in 'motion', row 2 of \$rows: .*times must ascend"),
@@ -194,10 +210,41 @@ def test_a_word_of_programs_behind_a_material():
     (f"{STYLE} mesh $floor mesh $floor move 0 0 1", {"floor": MESH}, "same name 'floor': give one of them another by the keyword name"),
     (f"{STYLE} mesh $floor mesh $floor name lid", {"floor": MESH}, "in 'mesh', of mesh 2 'lid': it is that of mesh 1 'floor' at the same place"),
     ("hooke/history $law mesh $floor", {"floor": MESH, "law": []}, "the value 'law' has no numbers"),
+    (f"{STYLE} mesh $floor matrix $m", {"floor": MESH, "m": np.eye(4)}, r"in 'matrix', \$m has 4 rows of 4 numbers: give three rows of four"),
+    (f"{STYLE} mesh $floor matrix $m", {"floor": MESH, "m": np.eye(3)}, r"in 'matrix', \$m has 3 rows of 3 numbers: give three rows of four"),
+    (f"{STYLE} mesh $floor matrix $m", {"floor": MESH, "m": np.eye(4).ravel()}, r"in 'matrix', the number '0' \(\$m, number 13\) is one more than expected: "
+     "a matrix has three rows of four"),
+    (f"{STYLE} mesh $floor matrix $m", {"floor": MESH, "m": np.eye(3).ravel()}, "in 'matrix', the value of m32 is missing"),
+    (f"{STYLE} mesh $floor matrix $m", {"floor": MESH, "m": [[1, 2, 3, 4], [2, 4, 6, 8], [0, 0, 1, 0]]},
+     "in 'matrix', the determinant of the rows 1 2 3, 2 4 6, 0 0 1 is 0, so that it would make the mesh flat: give three rows that lie in no plane"),
+    (f"{STYLE} mesh $floor matrix $m", {"floor": MESH, "m": [1, 0, 0, None, 0, 1, 0, 0, 0, 0, 1, 0]}, r"tx must be a number, not 'NULL' \(\$m, number 4\)"),
+    (f"{STYLE} mesh $floor matrix $m", {"floor": MESH, "m": [[1, 0, 0, None], [0, 1, 0, 0], [0, 0, 1, 0]]}, "the value 'm': number 4 is nan, not finite"),
+    (f"{STYLE} mesh $floor matrix $floor", {"floor": MESH}, r"m11 must be a number, not '\$floor'"),
+    (f"{STYLE} mesh $floor scale $s", {"floor": MESH, "s": [1, 2, 3, 4]}, r"'4' \(\$s, number 4\) is not a keyword"),
+    (f"{STYLE} mesh $floor corner $s", {"floor": MESH, "s": 3}, "'3' is not one of its values"),
+    (f"{STYLE} mesh $floor motion $s", {"floor": MESH, "s": 3}, r"Syntax: motion caller \| linear Vx Vy Vz"),
+    (f"{STYLE} mesh $floor nodes", {"floor": MESH}, "Syntax: nodes caller"), (f"{STYLE} mesh $floor node", {"floor": MESH}, "the nearest is 'nodes caller'"),
     ("hooke/history $law mesh $floor", {"floor": MESH, "law": [1000, float("inf"), 20, None, 0.5, 1]}, "the value 'law': number 2 is inf, not finite")))
 def test_values_refused(words, values, says):
     with pytest.raises(lsdcd.Error, match=says):
         lsdcd.Wall(words, values=values)
+
+
+def test_value_with_the_name_of_an_argument():
+    """It is an argument where it is not in `values`, and the error says so."""
+    words = f"{STYLE} mesh $floor motion linear 0 0 $time"
+    says = r"'\$time': there is no value of this name.*; 'time' is an argument of Wall\(\), so that its value goes into `values`: values={'time': ...}"
+    with pytest.raises(lsdcd.Error, match=says) as refused:
+        lsdcd.Wall(words, floor=MESH, time=2)
+    fact("with the code", refused.value.code == "argument")
+    wall = lsdcd.Wall(words, floor=MESH, values={"time": 2})
+    with pytest.raises(lsdcd.Error, match=r"'units' is an argument of Wall.check\(\), so that"):
+        lsdcd.Wall.check(words.replace("time", "units"), floor=MESH, units="si")
+    with pytest.raises(lsdcd.Error, match=r"'values' is an argument of Wall.change\(\), so that"):
+        wall.change("motion linear 0 0 $values")
+    with pytest.raises(lsdcd.Error) as refused:
+        lsdcd.Wall(words.replace("time", "tame"), floor=MESH)
+    fact("of another name it does not", "argument" not in str(refused.value), refused.value)
 
 
 def test_values_of_python(folder):

@@ -42,7 +42,7 @@ from ._names import KeywordName as KeywordName, OutputName as OutputName
 from ._shapes import (ShapeContacts as ShapeContacts, ShapeDistances as ShapeDistances, ShapeFacts as ShapeFacts,
                       shape_facts as shape_facts)
 from ._sub_models import SubModelFacts as SubModelFacts, sub_models as sub_models
-from ._words import KEYWORDS as KEYWORDS, Keyword as Keyword, Values as _Values
+from ._words import KEYWORDS as KEYWORDS, Keyword as Keyword, Values as _Values, argument_hint as _argument_hint
 
 __version__: str = _lib.lsdcd_version().decode()
 
@@ -778,22 +778,24 @@ class Wall(_Owner):
             if place is not None:
                 setattr(options, name, (_real * 3)(*place))
         given = _Values({**(values or {}), **named}, Mesh)
-        self._do(_lib.lsdcd_wall_create, _c_text(words, "words"), given.structs, given.n, ctypes.byref(options),
-                 ctypes.byref(self._handle), meshes=given.meshes)
+        with _argument_hint(Wall):
+            self._do(_lib.lsdcd_wall_create, _c_text(words, "words"), given.structs, given.n, ctypes.byref(options),
+                     ctypes.byref(self._handle), meshes=given.meshes)
 
     @staticmethod
     def check(words: str, values: Mapping[str, Value] | None = None, units: Units = "si", **named: Value) -> None:
         """Raises Error for what Wall() would refuse of words and values, and makes nothing. It reads files of materials, and no mesh."""
         given = _Values({**(values or {}), **named}, Mesh)
         options = _sized(_WallOptions, units=units, show=_Show(0))
-        with _in_use(*given.meshes):
+        with _in_use(*given.meshes), _argument_hint(Wall.check):
             _check(_lib.lsdcd_wall_check(_c_text(words, "words"), given.structs, given.n, ctypes.byref(options)))
 
     def change(self, words: str, values: Mapping[str, Value] | None = None, **named: Value) -> None:
         """Changes the wall by the words of fix_modify: "mesh lid motion ...", "motion none", "servo ...", "servo none" or "body ..." of what is to
         change, from where the mesh is. Raises Error for others, and the wall stays as it is."""
         given = _Values({**(values or {}), **named}, Mesh)
-        self._do(_lib.lsdcd_wall_change, self._handle, _c_text(words, "words"), given.structs, given.n, meshes=given.meshes)
+        with _argument_hint(Wall.change):
+            self._do(_lib.lsdcd_wall_change, self._handle, _c_text(words, "words"), given.structs, given.n, meshes=given.meshes)
 
     def set_input(self, name: str, value: float) -> None:
         """The value of v_NAME in the words from the next step on, the same on all processes. Raises Error for a name that the words have not, and a

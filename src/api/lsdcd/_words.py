@@ -4,13 +4,16 @@
 """The keywords of the words of a wall, and values of a program in them, as lsdcd_value."""
 from __future__ import annotations
 
+import contextlib
 import ctypes
+import inspect
 import os
-from typing import Any, Mapping, cast
+import re
+from typing import Any, Callable, Iterator, Mapping, cast
 
 import numpy as np
 
-from ._c import _HEADER, _lib, _Owner, _Record, _c_text, _sized
+from ._c import _HEADER, Error, _lib, _Owner, _Record, _c_text, _sized
 from ._names import KeywordName
 
 _Value: Any = _HEADER.structs["lsdcd_value"]
@@ -86,3 +89,17 @@ class Values:
         if np.ndim(value) > 2:
             raise ValueError(f"{name} is of shape {np.shape(value)}: give a number, (n,) numbers, or (n, columns) rows")
         return numbers
+
+
+@contextlib.contextmanager
+def argument_hint(function: Callable[..., Any]) -> Iterator[None]:
+    """Adds to the error of a $NAME without a value that NAME is an argument of the function, and where its value goes."""
+    try:
+        yield
+    except Error as error:
+        missing = re.match(r"'[$](\w+)': there is no value of this name", str(error))
+        if not missing or missing[1] not in inspect.signature(function).parameters:
+            raise
+        name = missing[1]
+        raise Error(f"{error}; {name!r} is an argument of {function.__qualname__.replace('.__init__', '')}(), so that its value goes into `values`: "
+                    f"values={{{name!r}: ...}}", error.code) from None
