@@ -98,8 +98,9 @@ def argument_hint(function: Callable[..., Any]) -> Iterator[None]:
         yield
     except Error as error:
         missing = re.match(r"'[$](\w+)': there is no value of this name", str(error))
-        if not missing or missing[1] not in inspect.signature(function).parameters:
+        argument = missing and inspect.signature(function).parameters.get(missing[1])
+        if not missing or not argument or argument.kind is argument.VAR_KEYWORD:
             raise
         name = missing[1]
-        raise Error(f"{error}; {name!r} is an argument of {function.__qualname__.replace('.__init__', '')}(), so that its value goes into `values`: "
+        raise Error(f"{error}; {name!r} is an argument of {function.__qualname__}(), so that its value goes into `values`: "
                     f"values={{{name!r}: ...}}", error.code) from None
