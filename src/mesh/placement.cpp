@@ -143,13 +143,6 @@ void Placement::compose(const Vec3 (&m)[3])
   for (int i = 0; i < 3; ++i) row_[i] = row[i];
 }
 
-void Placement::set(const Vec3 (&row)[3], const Vec3 &shift)
-{
-  for (int i = 0; i < 3; ++i) row_[i] = row[i];
-  shift_ = shift;
-  steps_.clear();
-}
-
 bool Placement::is_identity() const
 {
   return row_[0] == Vec3{1, 0, 0} && row_[1] == Vec3{0, 1, 0} && row_[2] == Vec3{0, 0, 1} &&

@@ -32,9 +32,6 @@ class Placement {
   // Takes x to m x + shift. Throws InputError where the determinant of m is 0 within the rounding of its numbers, or not finite.
   void matrix(const Vec3 (&m)[3], const Vec3 &shift);
 
-  // The map of these rows and this shift, which has no steps.
-  void set(const Vec3 (&row)[3], const Vec3 &shift);
-
   const Vec3 &row(int k) const { return row_[k]; }
   const Vec3 &shift() const { return shift_; }
   bool is_identity() const;

@@ -10,6 +10,7 @@ KeywordName = Literal[
     "scale",
     "rotate",
     "move",
+    "matrix",
     "weld",
     "cache",
     "motion",

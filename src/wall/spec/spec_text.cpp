@@ -111,7 +111,6 @@ std::string term_text(const MotionTerm &m, const InputNames &inputs)
 
 std::string placement_text(const Placement &placement)
 {
-  if (placement.steps().empty() && !placement.is_identity()) return "by a matrix";
   std::string text;
   for (const PlacementStep &step : placement.steps()) text = with_comma(text, step_text(step));
   return text;
