@@ -526,31 +526,23 @@ int FixMassflowLsdcdKokkos::pack_exchange_kokkos(const int &n, lsdcd::ExchangeBu
                                                  ExecutionSpace space)
 {
   settle();    // another fix may delete atoms before this one has looked at its candidates
-  which.sync<DeviceSpace>();
-  from.sync<DeviceSpace>();
-  buffer.clear_sync_state();
   change_on_device();
-  for_each(n, PackRows{which.view<DeviceSpace>().data(), from.view<DeviceSpace>().data(),
-                       places.view_device().data(), buffer.view<DeviceSpace>().data(),
-                       flags.view_device().data()});
-  if (lsdcd::sends_from_host<DeviceSpace>(space)) {
-    buffer.modify<DeviceSpace>();
-    buffer.sync<LMPHostType>();
-  }
-  return n * kRow;
+  return lsdcd::pack_on_device<DeviceSpace>(
+      which, from, buffer, space, [&](const int *leaves, const int *comes, double *to) {
+        for_each(n, PackRows{leaves, comes, places.view_device().data(), to,
+                             flags.view_device().data()});
+        return n * kRow;
+      });
 }
 
 void FixMassflowLsdcdKokkos::unpack_exchange_kokkos(lsdcd::ExchangeBuffer &buffer,
                                                     DAT::tdual_int_1d &to, int n, int /*n_first*/,
                                                     int /*second*/, ExecutionSpace space)
 {
-  buffer.clear_sync_state();
-  if (lsdcd::sends_from_host<DeviceSpace>(space)) buffer.modify<LMPHostType>();
-  buffer.sync<DeviceSpace>();
-  lsdcd::bring_places<DeviceSpace>(to, space);
   change_on_device();
-  for_each(n, UnpackRows{to.view<DeviceSpace>().data(), buffer.view<DeviceSpace>().data(),
-                         places.view_device().data(), flags.view_device().data()});
+  lsdcd::unpack_on_device<DeviceSpace>(to, buffer, space, [&](const int *at, const double *from) {
+    for_each(n, UnpackRows{at, from, places.view_device().data(), flags.view_device().data()});
+  });
 }
 
 void FixMassflowLsdcdKokkos::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter)

@@ -52,7 +52,7 @@ void FixSpringsLsdcdKokkos<DeviceType>::need_on_device(int n_atoms)
 {
   if (!on_device) engine->from_cpu(partners, n_atoms);
   on_device = true;
-  engine->grow(n_atoms);    // fixes may have created atoms since
+  engine->partners().grow(n_atoms);    // fixes may have created atoms since
 }
 
 template <class DeviceType>
@@ -109,7 +109,8 @@ void FixSpringsLsdcdKokkos<DeviceType>::forget()
 template <class DeviceType>
 int FixSpringsLsdcdKokkos<DeviceType>::largest_packed_size() const
 {
-  return on_device ? engine->largest_packed_size(atom->nlocal) : partners.largest_packed_size();
+  return on_device ? engine->partners().largest_packed_size(atom->nlocal)
+                   : partners.largest_packed_size();
 }
 
 template <class DeviceType>
@@ -174,18 +175,11 @@ int FixSpringsLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
 {
   if (!keeps()) return 0;
   need_on_device(lsdcd::most_in_exchange(*atom, n));
-  which.template sync<DeviceType>();
-  from.template sync<DeviceType>();
-  buffer.clear_sync_state();
-  const int size = engine->pack(n, which.template view<DeviceType>().data(),
-                                from.template view<DeviceType>().data(),
-                                buffer.template view<DeviceType>().data());
-  if (lsdcd::sends_from_host<DeviceType>(space)) {
-    buffer.template modify<DeviceType>();
-    buffer.template sync<LMPHostType>();
-  }
   if (between_runs) keep_names();    // partners know atoms by these since init()
-  return size;
+  return lsdcd::pack_on_device<DeviceType>(which, from, buffer, space,
+                                           [&](const int *leaves, const int *comes, double *to) {
+                                             return engine->partners().pack(n, leaves, comes, to);
+                                           });
 }
 
 template <class DeviceType>
@@ -196,12 +190,9 @@ void FixSpringsLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBu
 {
   if (!keeps()) return;
   need_on_device(atom->nlocal);
-  buffer.clear_sync_state();
-  if (lsdcd::sends_from_host<DeviceType>(space)) buffer.template modify<LMPHostType>();
-  buffer.template sync<DeviceType>();
-  lsdcd::bring_places<DeviceType>(to, space);
-  engine->unpack(n, to.template view<DeviceType>().data(),
-                 buffer.template view<DeviceType>().data(), n_first, second);
+  lsdcd::unpack_on_device<DeviceType>(to, buffer, space, [&](const int *at, const double *from) {
+    engine->partners().unpack(n, at, from, n_first, second);
+  });
   if (between_runs) keep_names();
 }
 
@@ -210,9 +201,7 @@ void FixSpringsLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType,
 {
   if (!keeps()) return;
   need_on_device(atom->nlocal);
-  using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  sorter.sort(LMPDeviceType(), Ints(engine->first(), atom->nlocal));
-  sorter.sort(LMPDeviceType(), Ints(engine->count(), atom->nlocal));
+  lsdcd::sort_rows(sorter, engine->partners(), atom->nlocal);
 }
 
 template class LAMMPS_NS::FixSpringsLsdcdKokkos<LMPDeviceType>;

@@ -99,8 +99,8 @@ void FixWallLsdcdKokkos<DeviceType>::make_exchange_room()
   if (wall->history().is_with_engine()) {
     // As the form without /kk, which a process takes that has its history on the CPU. Where no atom is packed, nobody need look at all.
     const int n = wall->history().spheres_of_engine();
-    lsdcd::Springs &springs = wall->history().in_engine(n);
-    int largest = atoms_are_packed() ? springs.largest_packed_size(n) : springs.most_packed_size();
+    int largest = atoms_are_packed() ? wall->history().in_engine(n).largest_packed_size(n)
+                                     : wall->history().max_packed_size();
     MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
     ask_for_room(1 + largest);
     return;

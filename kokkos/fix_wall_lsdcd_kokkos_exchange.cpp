@@ -68,22 +68,13 @@ int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
                                                          DAT::tdual_int_1d from,
                                                          ExecutionSpace space)
 {
-  which.template sync<DeviceType>();
-  from.template sync<DeviceType>();
-  buffer.clear_sync_state();
-  const int *leaves = which.template view<DeviceType>().data();
-  const int *comes = from.template view<DeviceType>().data();
-  double *at = buffer.template view<DeviceType>().data();
-  int size = pack_rows(n, leaves, comes, at);
-  if (has_history())
-    size += wall->history()
-                .in_engine(lsdcd::most_in_exchange(*atom, n))
-                .pack(n, leaves, comes, at + size);
-  if (lsdcd::sends_from_host<DeviceType>(space)) {
-    buffer.template modify<DeviceType>();
-    buffer.template sync<LMPHostType>();
-  }
-  return size;
+  return lsdcd::pack_on_device<DeviceType>(
+      which, from, buffer, space, [&](const int *leaves, const int *comes, double *at) {
+        const int size = pack_rows(n, leaves, comes, at);
+        if (!has_history()) return size;
+        lsdcd::ResidentRows &springs = wall->history().in_engine(lsdcd::most_in_exchange(*atom, n));
+        return size + springs.pack(n, leaves, comes, at + size);
+      });
 }
 
 template <class DeviceType>
@@ -92,20 +83,16 @@ void FixWallLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBuffe
                                                             int n_first, int second,
                                                             ExecutionSpace space)
 {
-  buffer.clear_sync_state();
-  if (lsdcd::sends_from_host<DeviceType>(space)) buffer.template modify<LMPHostType>();
-  buffer.template sync<DeviceType>();
-  lsdcd::bring_places<DeviceType>(to, space);
-  const int *places = to.template view<DeviceType>().data();
-  const double *at = buffer.template view<DeviceType>().data();
-  const int n_second = n - n_first, rows = n_first * row_size();
-  unpack_rows(n_first, places, at);
-  if (n_second > 0) unpack_rows(n_second, places + n_first, at + second);
-  if (!has_history()) return;
-  lsdcd::HistoryExchange &history = wall->history();
-  history.in_engine(atom->nlocal)
-      .unpack(n, places, at + rows, n_first, second + n_second * row_size() - rows);
-  history.set_spheres_of_engine(std::max(history.spheres_of_engine(), atom->nlocal));
+  lsdcd::unpack_on_device<DeviceType>(to, buffer, space, [&](const int *places, const double *at) {
+    const int n_second = n - n_first, rows = n_first * row_size();
+    unpack_rows(n_first, places, at);
+    if (n_second > 0) unpack_rows(n_second, places + n_first, at + second);
+    if (!has_history()) return;
+    lsdcd::HistoryExchange &history = wall->history();
+    history.in_engine(atom->nlocal)
+        .unpack(n, places, at + rows, n_first, second + n_second * row_size() - rows);
+    history.set_spheres_of_engine(std::max(history.spheres_of_engine(), atom->nlocal));
+  });
 }
 
 template <class DeviceType>
@@ -120,10 +107,7 @@ void FixWallLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, Bi
       std::copy_n(rows.data() + std::size_t(from[i]) * size, size, array_atom[i]);
   }
   if (!has_history()) return;
-  lsdcd::Springs &springs = wall->history().in_engine(atom->nlocal);
-  using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  sorter.sort(LMPDeviceType(), Ints(springs.first(), atom->nlocal));
-  sorter.sort(LMPDeviceType(), Ints(springs.count(), atom->nlocal));
+  lsdcd::sort_rows(sorter, wall->history().in_engine(atom->nlocal), atom->nlocal);
 }
 
 template class LAMMPS_NS::FixWallLsdcdKokkos<LMPDeviceType>;

@@ -89,16 +89,50 @@ bool sends_from_host(LAMMPS_NS::ExecutionSpace space)
   return !kOnCpu<DeviceType> && space != LAMMPS_NS::Device;
 }
 
-// Copies to a device the places of atoms that have arrived. If messages arrive on the host, LAMMPS writes these places there and does not
-// mark them as modified for Kokkos.
-template <class DeviceType, class List>
-void bring_places(List &to, LAMMPS_NS::ExecutionSpace space)
+// Packs what a fix has of atoms that leave: pack(atoms that leave, atoms that take their places, buffer) writes numbers where the device
+// is, and returns how many.
+template <class DeviceType, class List, class Pack>
+int pack_on_device(List &which, List &from, ExchangeBuffer &buffer, LAMMPS_NS::ExecutionSpace space,
+                   const Pack &pack)
 {
+  which.template sync<DeviceType>();
+  from.template sync<DeviceType>();
+  buffer.clear_sync_state();
+  const int size =
+      pack(which.template view<DeviceType>().data(), from.template view<DeviceType>().data(),
+           buffer.template view<DeviceType>().data());
   if (sends_from_host<DeviceType>(space)) {
+    buffer.template modify<DeviceType>();
+    buffer.template sync<LMPHostType>();
+  }
+  return size;
+}
+
+// Unpacks what a fix has of atoms that have arrived: unpack(places of these atoms, buffer) reads numbers where the device is. If messages
+// arrive on the host, LAMMPS writes these places there and does not mark them as modified for Kokkos.
+template <class DeviceType, class List, class Unpack>
+void unpack_on_device(List &to, ExchangeBuffer &buffer, LAMMPS_NS::ExecutionSpace space,
+                      const Unpack &unpack)
+{
+  buffer.clear_sync_state();
+  if (sends_from_host<DeviceType>(space)) {
+    buffer.template modify<LMPHostType>();
     to.clear_sync_state();
     to.template modify<LMPHostType>();
   }
+  buffer.template sync<DeviceType>();
   to.template sync<DeviceType>();
+  unpack(to.template view<DeviceType>().data(), buffer.template view<DeviceType>().data());
+}
+
+// Sorts rows with their n atoms.
+template <class Sorter>
+void sort_rows(Sorter &sorter, ResidentRows &rows, int n)
+{
+  using namespace LAMMPS_NS;
+  using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+  sorter.sort(LMPDeviceType(), Ints(rows.first(), n));
+  sorter.sort(LMPDeviceType(), Ints(rows.count(), n));
 }
 
 // Returns how many atoms may exist while n atoms that have left are packed. LAMMPS has already removed these from nlocal, and may have

@@ -21,13 +21,13 @@ bool WallEngine::choose_if_due(const Spheres &spheres, const SphereDrift &drift,
 }
 
 void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
-               ContactHistory *springs)
+               KeptRows *springs)
 {
-  if (springs) engine.springs().from_store(*springs, spheres.n);
+  if (springs) engine.springs().from_cpu(*springs, spheres.n);
   engine.choose(spheres, 0);
   engine.step(spheres, step);
   engine.read_diagnostics();    // throws where a sphere was left out
-  if (springs && step.update_history) engine.springs().to_store(*springs, spheres.n);
+  if (springs && step.update_history) engine.springs().to_cpu(*springs, spheres.n);
 }
 
 }    // namespace lsdcd

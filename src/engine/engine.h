@@ -6,12 +6,11 @@
 
 #include "backend/cuda_available.h"
 #include "box/periodic_box.h"
-#include "contact/contact_history.h"
 #include "engine/candidate_schedule.h"
 #include "engine/grains.h"
+#include "engine/resident_rows.h"
 #include "engine/results/step_results.h"
 #include "engine/settings.h"
-#include "engine/springs.h"
 #include "grid/triangle_grid.h"
 #include "motion/pose.h"
 
@@ -112,7 +111,7 @@ class WallEngine {
     return of.radius - norm(pose.turn_to_box(contact.arm));
   }
   // Returns the springs of the spheres, which steps read and replace.
-  virtual Springs &springs() = 0;
+  virtual ResidentRows &springs() = 0;
   // Returns the engine for the nodes of a mesh; null if the settings have no nodes.
   virtual NodeEngine *nodes(int /* mesh */) { return nullptr; }
   // Takes the nodes of all meshes, and the forces on them, from another engine on the same backend, instead of starting them. The objects
@@ -149,7 +148,7 @@ class WallEngine {
 
 // Does one step, including a candidate search, for a host that keeps the springs itself. `springs` may be null if the law has no history.
 void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
-               ContactHistory *springs);
+               KeptRows *springs);
 
 // Makes an engine for a host whose arrays are in its own memory. Device::cuda without a GPU throws InputError; Device::automatic then
 // takes the CPU.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/strided_view.h"
+#include "engine/resident_rows.h"
 #include "law/contact_law.h"
 #include "pair/partners.h"
 
@@ -97,23 +98,17 @@ class PairEngine {
   virtual void sums_of_grains(int n, std::vector<Real> &to) = 0;
 
   // The following functions bring what pairs keep to grains and partners, see Partners, and back. It is there from collect(),
-  // from_cpu() or unpack() until hand_out(). The list of collect() is that of the last step, and laws are those of the types that
-  // grains had in that step. hand_out() returns whether it has cleared any numbers because the pair has a law of another kind.
+  // from_cpu() or partners().unpack() until hand_out(). The list of collect() is that of the last step, and laws are those of the
+  // types that grains had in that step. hand_out() returns whether it has cleared any numbers because the pair has a law of
+  // another kind.
   virtual void collect(const PairRows &list, const ListedGrains &grains, int n) = 0;
   virtual bool hand_out(const PairRows &list, const ListedGrains &grains) = 0;
   // Notes that types may have changed since the last step, for the same list and laws by_law. Returns the same as hand_out().
   virtual bool note_types(const PairRows &list, const ListedGrains &grains) = 0;
   virtual void to_cpu(Partners &partners, int n) = 0;
   virtual void from_cpu(const Partners &partners, int n) = 0;
-
-  // The following functions are for a host that moves grains in the memory of the engine: see Springs (engine/springs.h). A grain
-  // has a first partner and a count.
-  virtual void grow(int n) = 0;
-  virtual int *first() = 0;
-  virtual int *count() = 0;
-  virtual int largest_packed_size(int n) = 0;
-  virtual int pack(int n, const int *which, const int *from, double *buffer) = 0;
-  virtual void unpack(int n, const int *to, const double *buffer, int n_first, int second) = 0;
+  // Returns the rows of partners, for a host that moves grains in the memory of the engine.
+  virtual ResidentRows &partners() = 0;
 
   virtual std::size_t bytes() const = 0;
 };

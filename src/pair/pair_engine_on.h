@@ -7,6 +7,7 @@
 
 #include "backend/backend.h"
 #include "base/countable.h"
+#include "engine/on_backend/rows_on.h"
 #include "engine/results/energy_sums.h"
 #include "pair/partner_kernels.h"
 
@@ -17,6 +18,60 @@
 #include <vector>
 
 namespace lsdcd {
+
+// The partners of grains, in an array that others may use when there are none.
+template <class B>
+class PartnersOn : public RowsOn<B, PartnerRows> {
+  using Base = RowsOn<B, PartnerRows>;
+  using Base::b_;
+  using Base::count_;
+  using Base::end_;
+  using Base::first_;
+  using Numbers = typename B::template Array<Real>;
+
+ public:
+  PartnersOn(B &backend, Numbers &numbers) :
+      Base(backend, "numbers of pairs in one process"), numbers_(&numbers)
+  {
+  }
+
+  const PartnerForm &form() const { return form_; }
+  // Forgets all partners; those to come have this form, and are in this array.
+  void begin(const PartnerForm &form, Numbers &numbers)
+  {
+    this->forget();
+    form_ = form;
+    numbers_ = &numbers;
+  }
+  PartnerRows rows() override { return {form_, numbers_->data()}; }
+  PartnersView view() { return view_of(static_cast<int>(count_.size())); }
+  PartnersView view_of(int n) { return {n, first_.data(), count_.data(), rows()}; }
+
+  // Reserves places for as many partners as grains have by their counts. Counts are 0 then.
+  void reserve_counted()
+  {
+    copy_all(b_, count_.data(), first_.data(), count_.size());
+    const std::size_t n = this->numbered(b_.exclusive_scan(first_.data(), first_.size()));
+    this->forget();
+    make_room(n);
+    end_ = n;
+  }
+  std::size_t bytes() const { return (first_.size() + count_.size()) * sizeof(int); }
+
+ private:
+  void make_room(std::size_t n) override
+  {
+    const std::size_t size = form_.row_size();
+    if (numbers_->size() >= n * size) return;
+    Numbers wider(with_spare(n * size));
+    copy_all(b_, numbers_->data(), wider.data(), end_ * size);
+    b_.wait();
+    *numbers_ = std::move(wider);
+  }
+
+  PartnerForm form_;
+  Numbers *numbers_;
+};
 
 template <class B>
 class PairEngineOn : public PairEngine {
@@ -177,29 +232,17 @@ class PairEngineOn : public PairEngine {
   {
     const std::size_t rows = list.rows;
     most_places_ = kUnknown;
-    grow(n);
-    Pool &to = pool_[1 - now_];
-    put_all(b_, count_.data(), count_.size(), 0);
-    form_ = {width_, by_law_, given.near > 0};
+    partners_.grow(n);
+    partners_.begin({width_, by_law_, given.near > 0}, pool_[1 - now_].numbers);
     ListedGrains grains = given;
     if (by_law_) grains.type = types_.data();
+    if (!has_last_ || rows == 0) return;
     const int words = words_of_row(list);
-    TouchingPairs from = pool_[now_].view(width_);
-    PartnersView partners = {n, form_, first_.data(), count_.data(), nullptr, nullptr};
-    if (!has_last_ || rows == 0) {
-      put_all(b_, first_.data(), first_.size(), 0);
-      end_ = 0;
-      return;
-    }
-    b_.for_each(rows, CountPartners{list, words, from.words, partners});
-    copy_all(b_, count_.data(), first_.data(), count_.size());
-    end_ = numbered(b_.exclusive_scan(first_.data(), first_.size()));
-    put_all(b_, count_.data(), count_.size(), 0);
-    to.numbers.reserve(end_ * form_.stride());
-    name_.reserve(end_);
-    partners.name = name_.data();
-    partners.numbers = to.numbers.data();
-    b_.for_each(rows, FillPartners{list, words, from, grains, kinds_of_laws(), kStep, partners});
+    const TouchingPairs from = pool_[now_].view(width_);
+    b_.for_each(rows, CountPartners{list, words, from.words, partners_.view_of(n)});
+    partners_.reserve_counted();
+    b_.for_each(rows, FillPartners{list, words, from, grains, kinds_of_laws(), kStep,
+                                   partners_.view_of(n)});
     b_.wait();
   }
 
@@ -212,14 +255,15 @@ class PairEngineOn : public PairEngine {
     *cleared_.data() = 0;
     if (rows > 0) {
       put_one(b_, places_.data(), PlaceCounts{0, 0});
-      b_.for_each_in_warps(rows, TakePlaces{list, count_.data(), places_.data(), to.first.data()});
+      b_.for_each_in_warps(rows,
+                           TakePlaces{list, partners_.count(), places_.data(), to.first.data()});
       const PlaceCounts places = read_one(b_, places_.data());
       most_places_ = places.most;
       // In a half list a grain also has partners in the rows of other grains.
       to.reserve(std::max<std::size_t>(places.taken, fits_all(most_places_) ? most_places_ : 0),
                  width_);
       b_.for_each(rows, HandOut{list, words, to.view(width_), grains, kinds_of_laws(), of_law_,
-                                kStep, view(), cleared_.data()});
+                                kStep, partners_.view(), cleared_.data()});
     }
     has_last_ = true;
     return by_law_ && keep_types(grains);
@@ -237,95 +281,19 @@ class PairEngineOn : public PairEngine {
 
   void to_cpu(Partners &partners, int n) override
   {
-    grow(n);
-    const std::size_t m = static_cast<std::size_t>(n);
-    const std::vector<int> first = lsdcd::to_cpu(b_, first_, m);
-    partners.assign(form_, {first.begin(), first.end()}, lsdcd::to_cpu(b_, count_, m),
-                    lsdcd::to_cpu(b_, name_, end_),
-                    lsdcd::to_cpu(b_, pool_[1 - now_].numbers, end_ * form_.stride()));
+    partners.begin(partners_.form());
+    partners_.to_cpu(partners, n);
   }
-
   void from_cpu(const Partners &partners, int n) override
   {
-    std::vector<int> first, count;
-    std::vector<Partners::Name> name;
-    std::vector<Real> numbers;
-    form_ = partners.form();
-    for (int i = 0; i < n; i++) {
-      first.push_back(static_cast<int>(name.size()));
-      count.push_back(partners.count(i));
-      for (int k = 0; k < partners.count(i); k++) {
-        name.push_back(partners.name(i, k));
-        numbers.insert(numbers.end(), partners.numbers(i, k),
-                       partners.numbers(i, k) + form_.stride());
-      }
-    }
-    grow(n);
-    end_ = numbered(static_cast<std::int64_t>(name.size()));
-    Pool &to = pool_[1 - now_];
-    to.numbers.reserve(numbers.size());
-    name_.reserve(end_);
-    b_.copy_in(first.data(), first_.data(), first.size());
-    b_.copy_in(count.data(), count_.data(), count.size());
-    b_.copy_in(name.data(), name_.data(), name.size());
-    b_.copy_in(numbers.data(), to.numbers.data(), numbers.size());
-    put_all(b_, count_.data() + n, count_.size() - n, 0);
-    b_.wait();
+    partners_.begin(partners.form(), pool_[1 - now_].numbers);
+    partners_.from_cpu(partners, n);
   }
-
-  void grow(int n_grains) override
-  {
-    const std::size_t n = n_grains, before = count_.size();
-    if (n <= before) return;
-    Array<int> first(with_spare(n)), count(with_spare(n));
-    put_all(b_, first.data(), first.size(), 0);
-    put_all(b_, count.data(), count.size(), 0);
-    copy_all(b_, first_.data(), first.data(), before);
-    copy_all(b_, count_.data(), count.data(), before);
-    b_.wait();
-    first_ = std::move(first);
-    count_ = std::move(count);
-  }
-  int *first() override { return first_.data(); }
-  int *count() override { return count_.data(); }
-
-  int largest_packed_size(int n) override
-  {
-    grow(n);
-    const int *count = count_.data();
-    return 1 + (1 + form_.stride()) * b_.template largest<int>(n, ReadInt{count});
-  }
-
-  int pack(int n, const int *which, const int *from, double *buffer) override
-  {
-    offsets_.reserve(static_cast<std::size_t>(n));
-    b_.for_each(n, SizeOfPacked{which, view(), offsets_.data()});
-    const int total = static_cast<int>(
-        numbered(std::int64_t(n) + numbered(b_.exclusive_scan(offsets_.data(), n))));
-    b_.for_each(n, PackPartners{n, which, from, offsets_.data(), view(), buffer});
-    b_.wait();
-    return total;
-  }
-
-  void unpack(int n, const int *to, const double *buffer, int n_first, int second) override
-  {
-    offsets_.reserve(static_cast<std::size_t>(n));
-    b_.for_each(n, CountUnpacked{to, buffer, n_first, second, offsets_.data()});
-    const std::size_t total = numbered(b_.exclusive_scan(offsets_.data(), n));
-    keep_and_grow(name_, end_, end_ + total);
-    const std::size_t stride = form_.stride();
-    keep_and_grow(pool_[1 - now_].numbers, end_ * stride, (end_ + total) * stride);
-    b_.for_each(n, UnpackPartners{to, buffer, n_first, second, offsets_.data(),
-                                  static_cast<int>(end_), view()});
-    b_.wait();
-    end_ += total;
-    numbered(static_cast<std::int64_t>(end_));
-  }
+  ResidentRows &partners() override { return partners_; }
 
   std::size_t bytes() const override
   {
-    return pool_[0].bytes() + pool_[1].bytes() + name_.size() * sizeof(Partners::Name) +
-           (first_.size() + count_.size() + offsets_.size() + types_.size()) * sizeof(int) +
+    return pool_[0].bytes() + pool_[1].bytes() + partners_.bytes() + types_.size() * sizeof(int) +
            sums_.size() * sizeof(Real) + energy_.size() * sizeof(EnergyRows) + is_booked_.size();
   }
 
@@ -379,17 +347,6 @@ class PairEngineOn : public PairEngine {
     b_.wait();
     pool.reserve(places, width_);
   }
-  static std::int64_t numbered(std::int64_t n)
-  {
-    return countable_here(n, "numbers of pairs in one process", "use more processes");
-  }
-
-  PartnersView view()
-  {
-    return {static_cast<int>(count_.size()), form_, first_.data(), count_.data(), name_.data(),
-            pool_[1 - now_].numbers.data()};
-  }
-
   KindsOfLaws kinds_of_laws() const
   {
     return {law_of_.data(), n_types_, flips_.data(), history_kind_.data()};
@@ -409,24 +366,12 @@ class PairEngineOn : public PairEngine {
   {
     return lsdcd::from_cpu(b_, host);
   }
-  template <class T>
-  void keep_and_grow(Array<T> &array, std::size_t kept, std::size_t n)
-  {
-    if (array.size() >= n) return;
-    Array<T> wider(with_spare(n));
-    copy_all(b_, array.data(), wider.data(), kept);
-    b_.wait();
-    array = std::move(wider);
-  }
-
   void forget()
   {
     for (Pool &pool : pool_) pool = Pool();
-    name_ = Array<Partners::Name>();
-    put_all(b_, count_.data(), count_.size(), 0);
+    partners_.forget();
     has_last_ = false;
     most_places_ = kUnknown;
-    end_ = 0;
   }
 
   void find(const PairStepView &s, std::size_t rows)
@@ -491,11 +436,8 @@ class PairEngineOn : public PairEngine {
   Array<char> is_booked_;
   EnergySums<B> energy_sums_;
 
-  Array<int> first_, count_, offsets_;    // of partners
-  Array<Partners::Name> name_;            // their numbers are in the pool that the next step writes
-  PartnerForm form_;                      // of these numbers
-  std::size_t end_ = 0;                   // end of the used part
-  Array<int> types_;                      // of grains, at the last lookup of laws of several kinds
+  PartnersOn<B> partners_ = {b_, pool_[1].numbers};    // in the pool that the next step writes
+  Array<int> types_;    // of grains, at the last lookup of laws of several kinds
   typename B::template CpuArray<int> cleared_ = typename B::template CpuArray<int>(1);
 };
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Kernels that copy what the pairs of a list keep to grains and partners, and back, and from there to messages.
+// Kernels that copy what the pairs of a list keep to grains and partners, and back.
 #pragma once
 
-#include "base/packed_integer.h"
 #include "pair/step_on.h"
 
 #include <cstddef>
@@ -36,13 +35,28 @@ struct KindsOfLaws {
   }
 };
 
-// The partners of grains, while kernels write them.
+// The rows of partners.
+struct PartnerRows {
+  PartnerForm form;
+  Real *numbers;
+
+  LSDCD_FN int size() const { return form.row_size(); }
+  LSDCD_FN Real *row(std::size_t place) const { return numbers + place * size(); }
+  LSDCD_FN void write(std::size_t place, double *to) const
+  {
+    for (int k = 0; k < size(); k++) to[k] = row(place)[k];
+  }
+  LSDCD_FN void read(std::size_t place, const double *from) const
+  {
+    for (int k = 0; k < size(); k++) row(place)[k] = from[k];
+  }
+};
+
+// The partners of the first n grains, while kernels write them.
 struct PartnersView {
   int n;
-  PartnerForm form;
   int *first, *count;
-  Partners::Name *name;
-  Real *numbers;
+  PartnerRows rows;
 };
 
 struct CountPartners {
@@ -87,9 +101,9 @@ struct FillPartners {
   LSDCD_FN void put(int i, int partner, const PairNumbers<Real> &numbers, std::uint32_t flip) const
   {
     const std::size_t at = std::size_t(to.first[i]) + fetch_add(to.count + i, 1);
-    to.name[at] = grains.name[partner];
-    const PartnerForm &form = to.form;
-    Real *const put = to.numbers + at * form.stride();
+    const PartnerForm &form = to.rows.form;
+    Real *put = to.rows.row(at);
+    *put++ = static_cast<Real>(grains.name[partner]);
     for (int n = 0; n < form.width; n++) put[n] = flip >> n & 1 ? -numbers[n] : numbers[n];
     if (form.by_law) put[form.width] = laws.kind[laws.law(grains.type, i, partner)];
     if (!form.by_image) return;
@@ -168,25 +182,25 @@ struct HandOut {
   LSDCD_FN void operator()(std::size_t k) const
   {
     const int i = list.grain[k], n = list.length[i], count = from.count[i];
-    const std::size_t first = static_cast<std::size_t>(from.first[i]);
-    const PartnerForm &form = from.form;
+    const Real *const all = from.rows.row(static_cast<std::size_t>(from.first[i]));
+    const PartnerForm &form = from.rows.form;
     const bool has_images =
         form.by_image && grains.near > 0;    // x is null in a box that has become wider
-    const Real *const all = from.numbers + first * form.stride();
     std::size_t pair = static_cast<std::size_t>(to.first[k]);
     int left = count;
     for (int w = 0; w < words; w++) {
       std::uint32_t bits = 0;
       for (int bit = 0; bit < kWordBits && kWordBits * w + bit < n && left > 0; bit++) {
         const int j = list.at(i, kWordBits * w + bit) & list.mask;
-        const Partners::Name other = grains.name[j];
+        const Real other = static_cast<Real>(grains.name[j]), *kept = all;
         int p = 0;
-        while (p < count && !(from.name[first + p] == other &&
-                              (!has_images || is_image(all + p * form.stride(), i, j))))
+        while (p < count && !(kept[0] == other && (!has_images || is_image(kept + 1, i, j)))) {
           p++;
+          kept += from.rows.size();
+        }
         if (p == count) continue;
         bits |= std::uint32_t(1) << bit;
-        const Real *const kept = all + p * form.stride();
+        kept++;
         for (int m = 0; m < form.width; m++) to.of(pair)[m] = kept[m];
         if (form.by_law && !form.is_of_law(kept, laws.kind[laws.law(grains.type, i, j)]))
           ClearOfOtherLaws::clear(to.of(pair), of_law, cleared);
@@ -200,87 +214,8 @@ struct HandOut {
  private:
   LSDCD_FN bool is_image(const Real *kept, int i, int j) const
   {
-    return from.form.is_image(kept, grains.x[i] - grains.x[j], grains.near);
+    return from.rows.form.is_image(kept, grains.x[i] - grains.x[j], grains.near);
   }
 };
-
-// Kernels for messages. A message has first the offset of each grain's numbers, as an integer in a double, and then for each
-// grain the count of its partners, and for each partner its name and its numbers.
-struct ReadInt {
-  const int *at;
-  LSDCD_FN int operator()(std::size_t i) const { return at[i]; }
-};
-
-struct SizeOfPacked {
-  const int *which;
-  PartnersView of;
-  int *to;
-  LSDCD_FN void operator()(std::size_t k) const
-  {
-    to[k] = 1 + (1 + of.form.stride()) * of.count[which[k]];
-  }
-};
-
-struct PackPartners {
-  int n;
-  const int *which, *from, *at;
-  PartnersView of;
-  double *buffer;
-  LSDCD_FN void operator()(std::size_t k) const
-  {
-    const int i = which[k];
-    int m = n + at[k];
-    buffer[k] = as_double(m);
-    buffer[m++] = of.count[i];
-    for (int c = 0; c < of.count[i]; c++) {
-      const std::size_t source = std::size_t(of.first[i]) + c;
-      buffer[m++] = static_cast<double>(of.name[source]);
-      const int stride = of.form.stride();
-      for (int e = 0; e < stride; e++) buffer[m++] = of.numbers[source * stride + e];
-    }
-    const int j = from[k];
-    if (j >= 0) {
-      of.first[i] = of.first[j];
-      of.count[i] = of.count[j];
-    }
-    of.count[j >= 0 ? j : i] = 0;    // the grain no longer exists
-  }
-};
-
-struct CountUnpacked {
-  const int *to;
-  const double *buffer;
-  int n_first, second;
-  int *count;
-  LSDCD_FN void operator()(std::size_t k) const
-  {
-    count[k] =
-        to[k] < 0 ? 0 : static_cast<int>(buffer[place_in_message(buffer, k, n_first, second)]);
-  }
-};
-
-struct UnpackPartners {
-  const int *to;
-  const double *buffer;
-  int n_first, second;
-  const int *at;
-  int begin;
-  PartnersView of;
-  LSDCD_FN void operator()(std::size_t k) const
-  {
-    const int i = to[k];
-    if (i < 0) return;
-    std::int64_t m = place_in_message(buffer, k, n_first, second);
-    of.first[i] = begin + at[k];
-    of.count[i] = static_cast<int>(buffer[m++]);
-    for (int c = 0; c < of.count[i]; c++) {
-      const std::size_t target = std::size_t(of.first[i]) + c;
-      of.name[target] = static_cast<Partners::Name>(buffer[m++]);
-      const int stride = of.form.stride();
-      for (int e = 0; e < stride; e++) of.numbers[target * stride + e] = buffer[m++];
-    }
-  }
-};
-
 
 }    // namespace lsdcd

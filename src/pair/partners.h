@@ -5,12 +5,12 @@
 // or into files.
 #pragma once
 
+#include "base/kept_rows.h"
 #include "base/vec3.h"
 #include "pair/pair_job.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace lsdcd {
@@ -25,7 +25,8 @@ struct PartnerForm {
   bool by_image = false;
   static constexpr Real kUnknownLaw = -1;
 
-  LSDCD_FN int stride() const { return image_at() + (by_image ? 3 : 0); }
+  LSDCD_FN int size() const { return image_at() + (by_image ? 3 : 0); }
+  LSDCD_FN int row_size() const { return 1 + size(); }    // with the partner's name
   LSDCD_FN int image_at() const { return width + (by_law ? 1 : 0); }
 
   // Returns whether these are the numbers of the pair with this offset. Images are more than twice `near` apart; 0: there is only
@@ -43,39 +44,27 @@ struct PartnerForm {
   }
 };
 
-// The partners of grain i, and the numbers of each of them, as grain i sees them. The host may copy, pack, unpack and reset grains.
-// In messages and files a grain has a count, and for each partner its name and its numbers.
-class Partners {
+// The partners of grain i, and the numbers of each of them, as grain i sees them. A row is the name of a partner, followed by its
+// numbers.
+class Partners : public KeptRows {
  public:
-  using Name = std::int64_t;    // of a grain, the same on all processes
+  using Name = std::int64_t;    // of a grain, the same on all processes; a row has it as a Real
 
-  explicit Partners(const PartnerForm &form = {}) :
-      form_(form), stride_(static_cast<std::size_t>(form.stride()))
-  {
-  }
+  explicit Partners(const PartnerForm &form = {}) : KeptRows(form.row_size()), form_(form) {}
   const PartnerForm &form() const { return form_; }
   int width() const { return form_.width; }
 
-  void grow(int n_grains);    // keeps what is there; new grains have no partners
   // Sets the form of the numbers of each partner: the numbers of the pair that are there stay, others are 0 or unknown.
   void set_form(const PartnerForm &form);
-  void copy(int from, int to) { first_[to] = first_[from], count_[to] = count_[from]; }
-  void clear(int i) { count_[i] = 0; }
-  // Replaces all partners by these: grain i has count[i] partners, beginning with first[i].
-  void assign(const PartnerForm &form, std::vector<std::size_t> first, std::vector<int> count,
-              std::vector<Name> name, std::vector<Real> numbers)
+  // Forgets all partners; those to come have this form.
+  void begin(const PartnerForm &form)
   {
     form_ = form;
-    stride_ = static_cast<std::size_t>(form.stride());
-    first_ = std::move(first);
-    count_ = std::move(count);
-    name_ = std::move(name);
-    numbers_ = std::move(numbers);
+    KeptRows::begin(form.row_size());
   }
-  int count(int i) const { return count_[i]; }
-  Name name(int i, int k) const { return name_[first_[i] + k]; }
-  void rename(int i, int k, Name name) { name_[first_[i] + k] = name; }
-  const Real *numbers(int i, int k) const { return numbers_.data() + stride_ * (first_[i] + k); }
+  Name name(int i, int k) const { return static_cast<Name>(*row(i, k)); }
+  void rename(int i, int k, Name name) { *row(i, k) = static_cast<Real>(name); }
+  const Real *numbers(int i, int k) const { return row(i, k) + 1; }
 
   // Takes over what the pairs of a list keep, for the first n grains, for both grains of each pair. `grains` has name(i), and for pairs
   //   flips(i, j)    the numbers that change sign if i and j change places, see ContactLaw::flips()
@@ -90,31 +79,19 @@ class Partners {
   bool hand_out(const PairList &list, PairHistory &history, Real near, int of_law,
                 const Grains &grains) const;
 
-  int packed_size(int i) const { return packed_size(i, width()); }
-  int pack(int i, Real *to) const { return pack(i, to, width()); }    // returns packed_size(i)
+  using KeptRows::pack;
+  using KeptRows::packed_size;
   // Do the same with the first `width` numbers of each pair.
   int packed_size(int i, int width) const
   {
-    return 1 + (1 + width + form_.stride() - form_.width) * count_[i];
+    return 1 + (row_size() - form_.width + width) * count(i);
   }
   int pack(int i, Real *to, int width) const;
-  int unpack(int i,
-             const Real *from);    // replaces what it has; returns how many numbers were read
-  int unpack_more(int i, const Real *from);    // adds to what it has
-  int largest_packed_size() const;             // over all grains
   // Returns whether pack() can have written these `size` numbers.
   bool is_sound(const Real *from, int size) const;
-  std::size_t bytes() const;
 
  private:
-  void append(Name name, const Real *numbers);
-
   PartnerForm form_;
-  std::size_t stride_;
-  std::vector<std::size_t> first_;
-  std::vector<int> count_;
-  std::vector<Name> name_;
-  std::vector<Real> numbers_;
 };
 
 // Calls act(i, j, number of the pair in the history) for the pairs of a list that are in the history.
@@ -147,26 +124,20 @@ template <class Grains>
 void Partners::collect(const PairList &list, const PairHistory &history, int n,
                        const PartnerForm &form, const Grains &grains)
 {
-  form_ = form;
-  stride_ = static_cast<std::size_t>(form.stride());
-  for (int &count : count_) count = 0;
+  begin(form);
+  std::vector<int> found(static_cast<std::size_t>(n), 0);
   for_pairs(list, history, [&](int i, int j, std::size_t) {
-    if (i < n) count_[i]++;
-    if (j < n) count_[j]++;
+    if (i < n) found[i]++;
+    if (j < n) found[j]++;
   });
-  std::size_t all = 0;
   for (int i = 0; i < n; i++) {
-    first_[i] = all;
-    all += static_cast<std::size_t>(count_[i]);
-    count_[i] = 0;
+    add(i, found[i]);
+    found[i] = 0;
   }
-  name_.resize(all);
-  numbers_.resize(all * stride_);
   for_pairs(list, history, [&](int i, int j, std::size_t pair) {
     const auto put = [&](int grain, int partner, unsigned flip) {
-      const std::size_t at = first_[grain] + static_cast<std::size_t>(count_[grain]++);
-      name_[at] = grains.name(partner);
-      Real *to = numbers_.data() + at * stride_;
+      Real *to = row(grain, found[grain]++);
+      *to++ = static_cast<Real>(grains.name(partner));
       for (int k = 0; k < form.width; k++) {
         const Real a = history.column(k)[pair];
         *to++ = flip >> k & 1 ? -a : a;
@@ -190,11 +161,11 @@ bool Partners::hand_out(const PairList &list, PairHistory &history, Real near, i
   bool cleared = false;
   for (int k = 0; k < list.rows; k++) {
     const int i = list.grain[k];
-    int left = count_[i];
+    int left = count(i);
     for (int place = 0; place < list.length[i] && left > 0; place++) {
       const int j = list.row[i][place] & list.mask;
       const Name other = grains.name(j);
-      for (int p = 0; p < count_[i]; p++) {
+      for (int p = 0; p < count(i); p++) {
         if (this->name(i, p) != other) continue;
         const Real *const kept = numbers(i, p);
         if (form_.by_image && !form_.is_image(kept, grains.offset(i, j), near)) continue;

@@ -3,6 +3,7 @@
 
 #include "study/drift.h"
 
+#include "contact/contact_history.h"
 #include "contact/find_contacts.h"
 
 #include <algorithm>

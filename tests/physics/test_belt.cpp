@@ -101,7 +101,7 @@ TEST(belt, does_not_drag_what_moves_with_it)
   for (int i = 0; i < 10; i++) scene.compute(kStep);
   EXPECT_EQ(scene.force(0).x, 0);
   EXPECT_EQ(scene.force(0).y, 0);
-  EXPECT_EQ(scene.springs.of(0)->shear, (Vec3{0, 0, 0}));
+  EXPECT_EQ(scene.springs.spring(0, 0).shear, (Vec3{0, 0, 0}));
 }
 
 TEST(belt, stretches_the_spring_of_a_sphere_at_rest)

@@ -7,6 +7,7 @@
 #include "law/sub_models.h"
 #include "law/submodels/normal.h"
 #include "support/crowd.h"
+#include "support/kept_springs.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 
@@ -414,7 +415,7 @@ TEST(slip, stretches_the_spring_against_it_and_never_past_the_limit)
       for (int i = 1; i < 200; i++) {
         const Real overlap = 0.01 * std::sin(kPi * i / 200);
         const Real limit = kMu * s.at(overlap, 1e-4).z;
-        const Real pull = stiffness_at(model, overlap) * s.scene.springs.of(0)->shear.x;
+        const Real pull = stiffness_at(model, overlap) * s.scene.springs.spring(0, 0).shear.x;
         EXPECT_GT(pull, 0);
         EXPECT_LE(pull, limit * (1 + 1e-11));
       }
@@ -713,11 +714,11 @@ TEST(granular, setup_moves_nothing)
   s.scene.set_v(0, {6, 4, 0});
   s.scene.set_omega(0, {-3, 9, 2});
   for (int i = 0; i < 50; i++) s.at(0.01 - 1e-4 * i, 1e-4);
-  const Spring spring = *s.scene.springs.of(0);
-  const std::vector<Real> extra(s.scene.springs.extra_of(0), s.scene.springs.extra_of(0) + 5);
+  const Spring spring = s.scene.springs.spring(0, 0);
+  const std::vector<Real> extra = extra_of(s.scene.springs, 0);
   s.scene.compute(1e-4, false);
-  EXPECT_EQ(s.scene.springs.of(0)->shear, spring.shear);
-  for (int k = 0; k < 5; k++) EXPECT_EQ(s.scene.springs.extra_of(0)[k], extra[k]);
+  EXPECT_EQ(s.scene.springs.spring(0, 0).shear, spring.shear);
+  EXPECT_EQ(extra_of(s.scene.springs, 0), extra);
 }
 
 TEST(cube_root, is_right_to_a_rounding_or_two_at_all_sizes)

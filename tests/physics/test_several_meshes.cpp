@@ -383,7 +383,7 @@ struct Crossing {
       spheres.move(kStep);
     }
     ContactHistory springs;
-    engine.springs().to_store(springs, kSpheres);
+    engine.springs().to_cpu(springs, kSpheres);
     for (int i = 0; i < kSpheres; i++) joint += springs.count(i) > 1;
   }
 };

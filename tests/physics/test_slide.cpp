@@ -60,7 +60,7 @@ Slid slide(const TriangleSoup &soup, const Path &path, Real length, int n,
     }
     out.contacts = std::fmax(out.contacts, scene.engine->results().touching()[0].n_contacts);
     if (scene.springs.count(0) == 1) {
-      const Real h = norm(scene.springs.of(0)->shear);
+      const Real h = norm(scene.springs.spring(0, 0).shear);
       out.jump = std::fmax(out.jump, std::fabs(h - last - ds) / h);
       last = h;
     }
@@ -313,7 +313,7 @@ TEST(slide, broken_off_and_taken_up_again_is_the_same_to_the_last_bit)
              norm(whole.omega(0) - second.omega(0));
   ASSERT_EQ(whole.springs.count(0), second.springs.count(0));
   for (int k = 0; k < whole.springs.count(0); k++)
-    off += norm(whole.springs.of(0)[k].shear - second.springs.of(0)[k].shear);
+    off += norm(whole.springs.spring(0, k).shear - second.springs.spring(0, k).shear);
   expect_answer({"History", "21",
                  "broken off on two walls in mid-slide and taken up again: |difference| "
                  "in place, speed, spin and springs"},

@@ -3,6 +3,8 @@
 
 #include "support/crowd.h"
 
+#include "support/kept_springs.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -188,9 +190,8 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
   for (int i = 0; i < n_spheres; i++) {
     out.force.push_back(vector_at(a.force, i));
     out.torque.push_back(vector_at(a.torque, i));
-    out.springs.insert(out.springs.end(), springs.of(i), springs.of(i) + springs.count(i));
-    out.extra.insert(out.extra.end(), springs.extra_of(i),
-                     springs.extra_of(i) + springs.count(i) * law.n_extra());
+    for (const Spring &spring : springs_of(springs, i)) out.springs.push_back(spring);
+    for (const Real number : extra_of(springs, i)) out.extra.push_back(number);
   }
   out.heat = a.heat_flow;
   out.totals = engine->results().totals();

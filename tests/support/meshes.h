@@ -4,6 +4,7 @@
 // Meshes and walls that tests share.
 #pragma once
 
+#include "contact/contact_history.h"
 #include "engine/engine.h"
 #include "grid/flat_grid.h"
 #include "mesh/triangle_soup.h"

@@ -27,7 +27,7 @@ class InPlaceForHost : public WallEngine {
   void set_pose(const Pose &pose, int mesh) override { engine_->set_pose(pose, mesh); }
   bool is_under_way() const override { return engine_->is_under_way(); }
   StepResults &results() override { return engine_->results(); }
-  Springs &springs() override { return engine_->springs(); }
+  ResidentRows &springs() override { return engine_->springs(); }
   NodeEngine *nodes(int mesh) override { return engine_->nodes(mesh); }
   void take_nodes(WallEngine &from) override
   {

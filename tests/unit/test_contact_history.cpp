@@ -3,6 +3,7 @@
 
 #include "contact/contact_history.h"
 #include "law/contact_law.h"
+#include "support/kept_springs.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ bool same(const Spring &a, const Spring &b)
 void expect_springs(const ContactHistory &store, int i, const std::vector<Spring> &expected)
 {
   ASSERT_EQ(store.count(i), static_cast<int>(expected.size()));
-  for (int k = 0; k < store.count(i); k++) EXPECT_TRUE(same(store.of(i)[k], expected[k]));
+  for (int k = 0; k < store.count(i); k++) EXPECT_TRUE(same(store.spring(i, k), expected[k]));
 }
 
 const std::vector<Spring> kTwo = {spring(0.1, 7), spring(-2, feature_code(FeatureKind::edge, 3))};
@@ -37,7 +38,7 @@ TEST(contact_history, growing_keeps_what_is_there)
 {
   ContactHistory store;
   store.grow(2);
-  store.set(1, kTwo.data(), nullptr, 2);
+  give_springs(store, 1, kTwo);
   store.grow(1000);
   expect_springs(store, 1, kTwo);
   EXPECT_EQ(store.count(999), 0);
@@ -50,14 +51,14 @@ TEST(contact_history, pack_and_unpack_are_a_round_trip)
   ContactHistory from, to;
   from.grow(3);
   to.grow(9);
-  from.set(0, kTwo.data(), nullptr, 2);
-  from.set(2, kThree.data(), nullptr, 3);
+  give_springs(from, 0, kTwo);
+  give_springs(from, 2, kThree);
   std::vector<double> buffer(100, -7);
   int n = from.pack(0, buffer.data());
   EXPECT_EQ(n, from.packed_size(0));
   n += from.pack(1, buffer.data() + n);
   n += from.pack(2, buffer.data() + n);
-  EXPECT_EQ(n, 3 + 5 * ContactHistory().doubles_per_spring());
+  EXPECT_EQ(n, 3 + 5 * 7);
   EXPECT_EQ(buffer[n], -7);
   int m = to.unpack(8, buffer.data());
   m += to.unpack(4, buffer.data() + m);
@@ -74,11 +75,11 @@ TEST(contact_history, packs_every_feature_code_and_the_last_bit_of_a_stretch)
     ContactHistory from, to;
     from.grow(1);
     to.grow(1);
-    from.set(0, &s, nullptr, 1);
+    give_springs(from, 0, {s});
     std::vector<double> buffer(from.packed_size(0));
     from.pack(0, buffer.data());
     to.unpack(0, buffer.data());
-    return *to.of(0);
+    return to.spring(0, 0);
   };
   for (FeatureKind kind : {FeatureKind::face, FeatureKind::edge, FeatureKind::vertex})
     for (std::uint32_t i : {0u, 1u, 0x3ffffffeu, kFeatureIndexMask}) {
@@ -97,8 +98,8 @@ TEST(contact_history, copy_gives_a_sphere_the_springs_of_another)
 {
   ContactHistory store;
   store.grow(3);
-  store.set(0, kTwo.data(), nullptr, 2);
-  store.set(2, kThree.data(), nullptr, 3);
+  give_springs(store, 0, kTwo);
+  give_springs(store, 2, kThree);
   store.copy(2, 0);
   expect_springs(store, 0, kThree);
   store.copy(1, 2);    // a sphere without any
@@ -110,10 +111,10 @@ TEST(contact_history, unpacking_into_a_sphere_leaves_its_copies_alone)
 {
   ContactHistory store;
   store.grow(3);
-  store.set(0, kTwo.data(), nullptr, 2);
+  give_springs(store, 0, kTwo);
   store.copy(0, 1);
   std::vector<double> buffer(100);
-  store.set(2, kThree.data(), nullptr, 3);
+  give_springs(store, 2, kThree);
   store.pack(2, buffer.data());
   store.unpack(0, buffer.data());
   expect_springs(store, 0, kThree);
@@ -126,8 +127,7 @@ const std::vector<Real> kExtra = {1, -2, 3.5, 4, 5, -6e-300};    // two for each
 
 void expect_extra(const ContactHistory &store, int i, const std::vector<Real> &expected)
 {
-  ASSERT_EQ(store.count(i) * store.n_extra(), static_cast<int>(expected.size()));
-  for (std::size_t k = 0; k < expected.size(); k++) EXPECT_EQ(store.extra_of(i)[k], expected[k]);
+  EXPECT_EQ(extra_of(store, i), expected);
 }
 
 TEST(contact_history, extra_numbers_go_wherever_their_springs_go)
@@ -135,8 +135,8 @@ TEST(contact_history, extra_numbers_go_wherever_their_springs_go)
   ContactHistory from(2), to(2);
   from.grow(3);
   to.grow(3);
-  from.set(1, kTwo.data(), kExtra.data() + 2, 2);
-  from.set(2, kThree.data(), kExtra.data(), 3);
+  give_springs(from, 1, kTwo, {kExtra.begin() + 2, kExtra.end()});
+  give_springs(from, 2, kThree, kExtra);
   from.copy(2, 0);
   expect_extra(from, 0, kExtra);
   expect_extra(from, 1, {kExtra.begin() + 2, kExtra.end()});

@@ -112,7 +112,7 @@ TEST(effects, that_are_off_take_no_memory_of_the_engine)
     const std::size_t per_slot = history * (sizeof(Spring) + s.law().n_extra() * sizeof(Real)) +
                                  recorded * sizeof(StepContact);
     const std::size_t expected =
-        least + slots * per_slot + history * 2 * kSpheres * sizeof(int) +
+        least + slots * per_slot + history * 2 * grown(kSpheres) * sizeof(int) +
         s.law().has_heat() * grown(kSpheres) * sizeof(Real) +
         booked * grown(kSpheres) * (sizeof(EnergyRows) + 1) +
         recorded * grown(kSpheres) * sizeof(int) +

@@ -16,6 +16,7 @@
 #include "output/mesh_loads.h"
 #include "support/crowd.h"
 #include "support/device.h"
+#include "support/kept_springs.h"
 #include "support/says.h"
 #include "support/sphere_arrays.h"
 
@@ -262,7 +263,7 @@ class Particles {
   ContactHistory springs()
   {
     ContactHistory store;
-    engine->springs().to_store(store, host.n());
+    engine->springs().to_cpu(store, host.n());
     return store;
   }
 
@@ -284,10 +285,7 @@ EngineSettings with_history()
 
 bool same_springs(const ContactHistory &a, int i, const ContactHistory &b, int j)
 {
-  const auto of = [](const ContactHistory &store, int k) {
-    return std::vector<Spring>(store.of(k), store.of(k) + store.count(k));
-  };
-  return same_bytes(of(a, i), of(b, j));
+  return same_bytes(springs_of(a, i), springs_of(b, j));
 }
 
 // `now`: to what the host has put there by submit(), and not by collect().
@@ -680,7 +678,7 @@ TEST(engine, springs_that_are_taken_over_are_all_that_there_are)
   const ContactHistory before = p.springs();
   ContactHistory store;
   store.grow(few);
-  p.engine->springs().from_store(store, few);
+  p.engine->springs().from_cpu(store, few);
   const ContactHistory after = p.springs();
   int had = 0, have = 0;
   for (int i = few; i < n; i++) {
@@ -698,14 +696,14 @@ TEST(engine, a_sphere_that_was_far_has_no_spring_of_before)
   p.host.v = {1, 0, 0};
   p.host.radius = {0.5};
   for (int k = 0; k < 3; k++) p.step(0.01, Particles::Candidates::now);
-  const Real three = p.springs().of(0)->shear.x;
+  const Real three = p.springs().spring(0, 0).shear.x;
   p.host.x[2] += 10;
   p.step(0.01, Particles::Candidates::now);
   EXPECT_EQ(p.springs().count(0), 0);
   p.host.x[2] -= 10;
   p.step(0.01, Particles::Candidates::now);
   ASSERT_EQ(p.springs().count(0), 1);
-  EXPECT_NEAR(p.springs().of(0)->shear.x, three / 3, 1e-15);
+  EXPECT_NEAR(p.springs().spring(0, 0).shear.x, three / 3, 1e-15);
 }
 
 TEST(engine, a_sphere_larger_than_the_reach_is_an_error)
@@ -924,11 +922,8 @@ TEST(engine, takes_spheres_whose_kind_of_contact_changes_from_step_to_step)
                              std::vector<WallTotals>{scene->engine->results().totals()}));
       int same = 0;
       for (int i = 0; i < kSpheres; i++) {
-        const int n = host.springs.count(i);
         same += scene->force(i) == host.force(i) && scene->torque(i) == host.torque(i) &&
-                scene->springs.count(i) == n &&
-                (n == 0 ||
-                 std::memcmp(scene->springs.of(i), host.springs.of(i), n * sizeof(Spring)) == 0);
+                same_springs(scene->springs, i, host.springs, i);
       }
       EXPECT_EQ(same, kSpheres) << m.single << " " << m.several << " " << m.crowded;
     }
@@ -1069,8 +1064,8 @@ TEST(engine, packs_a_sphere_into_no_more_than_any_sphere_can_have)
   AllTouching all;
   all.engine->step(all.spheres, all.step);
   const int largest = all.engine->springs().largest_packed_size(all.n);
-  EXPECT_EQ(largest, 1 + kAllRound * ContactHistory().doubles_per_spring());
-  EXPECT_LE(largest, all.engine->springs().most_packed_size());
+  EXPECT_EQ(largest, 1 + kAllRound * ContactHistory().row_size());
+  EXPECT_LE(largest, 1 + kMaxContacts * ContactHistory().row_size());
 }
 
 }    // namespace

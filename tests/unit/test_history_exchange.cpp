@@ -3,6 +3,7 @@
 
 // The history of contacts: written to restart files and read from them.
 #include "support/fake_host.h"
+#include "support/kept_springs.h"
 #include "wall/spheres/history_exchange.h"
 
 #include <gtest/gtest.h>
@@ -28,8 +29,7 @@ void give_spring(HistoryExchange &history, FeatureCode feature)
 {
   history.grow(2);
   ContactHistory &store = history.on_cpu();
-  const Spring one = {{0.25, -0.5, 0}, {0, 0, 1}, feature, 0};
-  store.set(1, &one, nullptr, 1);
+  give_springs(store, 1, {{{0.25, -0.5, 0}, {0, 0, 1}, feature, 0}});
 }
 
 FeatureCode without_image(int /*mesh*/, FeatureCode feature)
@@ -54,8 +54,8 @@ TEST(HistoryExchange, of_an_image_is_written_as_of_what_it_is_an_image_of)
   read.grow(2);
   read.unpack_saved(1, buffer.data(), size);
   ASSERT_EQ(read.on_cpu().count(1), 1);
-  EXPECT_EQ(read.on_cpu().of(1)->feature, kFace);
-  EXPECT_EQ(written.on_cpu().of(1)->feature, kImage);    // is as it was
+  EXPECT_EQ(read.on_cpu().spring(1, 0).feature, kFace);
+  EXPECT_EQ(written.on_cpu().spring(1, 0).feature, kImage);    // is as it was
 }
 
 TEST(HistoryExchange, of_features_that_are_not_there_is_dropped_and_told)
@@ -87,11 +87,11 @@ TEST(HistoryExchange, of_walls_that_keep_losses_and_that_do_not_go_to_each_other
     const ContactLaw &from = to_listing ? plain : listing, &to = to_listing ? listing : plain;
     HistoryExchange written(host, from), read(host, to);
     written.grow(2);
-    const Spring two[] = {{{0.25, -0.5, 0}, {0, 0, 1}, kFace, 0},
-                          {{1, 2, 0}, {0, 0, 1}, kImage, 0}};
+    const std::vector<Spring> two = {{{0.25, -0.5, 0}, {0, 0, 1}, kFace, 0},
+                                     {{1, 2, 0}, {0, 0, 1}, kImage, 0}};
     std::vector<Real> extra;
     for (int k = 0; k < 2 * from.n_extra(); k++) extra.push_back(1 + k);
-    written.on_cpu().set(1, two, extra.data(), 2);
+    give_springs(written.on_cpu(), 1, two, extra);
     std::vector<double> buffer(written.max_packed_size());
     const auto as_it_is = [](int, FeatureCode feature) { return feature; };
     const int size = written.pack_saved(1, buffer.data(), as_it_is);
@@ -100,9 +100,9 @@ TEST(HistoryExchange, of_walls_that_keep_losses_and_that_do_not_go_to_each_other
     read.unpack_saved(1, buffer.data(), size);
     ASSERT_EQ(read.on_cpu().count(1), 2);
     for (int c = 0; c < 2; c++) {
-      EXPECT_EQ(read.on_cpu().of(1)[c].shear, two[c].shear);
+      EXPECT_EQ(read.on_cpu().spring(1, c).shear, two[c].shear);
       for (int k = 0; k < to.n_extra(); k++)
-        EXPECT_EQ(read.on_cpu().extra_of(1)[c * to.n_extra() + k],
+        EXPECT_EQ(extra_of(read.on_cpu(), 1)[c * to.n_extra() + k],
                   k < n_plain ? 1 + c * from.n_extra() + k : 0);
     }
   }
@@ -115,7 +115,7 @@ TEST(HistoryExchange, follows_features_that_get_other_names)
   HistoryExchange history(host, settings.law());
   give_spring(history, kImage);
   history.rename_features(without_image);
-  EXPECT_EQ(history.on_cpu().of(1)->feature, kFace);
+  EXPECT_EQ(history.on_cpu().spring(1, 0).feature, kFace);
 }
 
 }    // namespace

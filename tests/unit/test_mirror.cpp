@@ -4,6 +4,7 @@
 // Engines with arrays of their own: springs and indices across choices of other candidates, where the host's arrays are
 // elsewhere. That they give what an engine in place gives is in test_engine.cpp.
 #include "support/crowd.h"
+#include "support/kept_springs.h"
 #include "support/test_engine.h"
 
 #include <gtest/gtest.h>
@@ -58,8 +59,8 @@ class Pair {
   Real shear(int engine, int i)
   {
     ContactHistory store;
-    both()[engine]->springs().to_store(store, kSpheres);
-    return store.count(i) == 0 ? 0 : norm(store.of(i)->shear);
+    both()[engine]->springs().to_cpu(store, kSpheres);
+    return store.count(i) == 0 ? 0 : norm(store.spring(i, 0).shear);
   }
   void expect_same_springs()
   {
@@ -108,11 +109,11 @@ TEST(mirror, springs_that_are_given_replace_those_it_has)
   for (int k = 0; k < 3; k++) p.step();
   // As after a restart: 0 and 2 have changed places, 1 is new.
   ContactHistory had, given;
-  p.direct->springs().to_store(had, Pair::kSpheres);
+  p.direct->springs().to_cpu(had, Pair::kSpheres);
   given.grow(Pair::kSpheres);
-  given.set(0, had.of(2), had.extra_of(2), had.count(2));
-  given.set(2, had.of(0), had.extra_of(0), had.count(0));
-  for (WallEngine *e : p.both()) e->springs().from_store(given, Pair::kSpheres);
+  give_springs(given, 0, springs_of(had, 2));
+  give_springs(given, 2, springs_of(had, 0));
+  for (WallEngine *e : p.both()) e->springs().from_cpu(given, Pair::kSpheres);
   EXPECT_GT(p.shear(1, 0), 0);
   EXPECT_EQ(p.shear(1, 1), 0);
   p.expect_same_springs();    // before the step that takes them

@@ -3,6 +3,7 @@
 
 // Memory for what pairs of a step keep, of an engine in the memory of a backend.
 #include "backend/backend_cpu.h"
+#include "base/packed_integer.h"
 #include "pair/pair_engine_on.h"
 #include "support/grain_rows.h"
 
@@ -34,7 +35,7 @@ struct Row : GrainRows {
       length[i] = std::min(kListed, kGrains - 1 - i);
       for (int k = 0; k < kListed; k++) neighbor[kListed * i + k] = i + 1 + k;
     }
-    engine.grow(kGrains);
+    engine.partners().grow(kGrains);
     engine.hand_out(list(), {{name.data(), false}});
   }
 
@@ -115,6 +116,46 @@ TEST(pair_engine, moves_no_spring_in_a_setup)
     seen[with_setup] = row.force;
   }
   EXPECT_EQ(seen[0], seen[1]);
+}
+
+// Grain 1 leaves and grain 3 takes its place; grain 2 leaves from the end. A message has the offsets of both, then their partners; another
+// one, which has grain 0 alone, comes behind it where they arrive.
+TEST(pair_engine, packs_partners_as_the_host_of_a_gpu_sends_them)
+{
+  const std::vector<std::vector<Real>> of = {
+      {1, 12, 1, 2, 3}, {2, 10, 4, 5, 6, 13, 7, 8, 9}, {0}, {1, 11, -4, -5, -6}};
+  Partners partners({3}), arrived;
+  partners.grow(4);
+  for (int i = 0; i < 4; i++) partners.unpack(i, of[i].data());
+  PairEngineOn<CpuBackend> from{CpuBackend()}, to{CpuBackend()};
+  from.from_cpu(partners, 4);
+  EXPECT_EQ(from.partners().largest_packed_size(4), 9);
+  const int which[] = {1, 2}, comes[] = {3, -1}, first[] = {0}, stays[] = {-1};
+  std::vector<Real> buffer(20, -7);
+  ASSERT_EQ(from.partners().pack(2, which, comes, buffer.data()), 2 + 9 + 1);
+  EXPECT_EQ(as_integer(buffer[0]), 2);
+  EXPECT_EQ(as_integer(buffer[1]), 2 + 9);
+  EXPECT_EQ(std::vector<Real>(buffer.begin() + 2, buffer.begin() + 11), of[1]);
+  EXPECT_EQ(buffer[11], 0);
+  EXPECT_EQ(buffer[12], -7);
+  const auto packed = [&](int i) {
+    std::vector<Real> numbers(static_cast<std::size_t>(arrived.packed_size(i)));
+    arrived.pack(i, numbers.data());
+    return numbers;
+  };
+  from.to_cpu(arrived, 4);
+  EXPECT_EQ(packed(0), of[0]);
+  EXPECT_EQ(packed(1), of[3]);
+  for (int i : {2, 3}) EXPECT_EQ(packed(i), of[2]) << i;    // it has none
+  ASSERT_EQ(from.partners().pack(1, first, stays, buffer.data() + 12), 1 + 5);
+  const int places[] = {5, -1, 0};
+  to.from_cpu(partners, 1);
+  to.partners().grow(6);
+  to.partners().unpack(3, places, buffer.data(), 2, 12);
+  to.to_cpu(arrived, 6);
+  EXPECT_EQ(packed(5), of[1]);
+  EXPECT_EQ(packed(0), of[0]);
+  for (int i = 1; i < 5; i++) EXPECT_EQ(arrived.count(i), 0) << i;
 }
 
 }    // namespace lsdcd::test_pair_engine

@@ -7,6 +7,7 @@
 #include "engine/step/narrow_phase.h"
 #include "support/brute_force.h"
 #include "support/crowd.h"
+#include "support/kept_springs.h"
 #include "support/laws.h"
 #include "support/random_mesh.h"
 #include "support/sphere_arrays.h"
@@ -256,9 +257,10 @@ struct Bed : SphereArrays {
   std::vector<Spring> springs()
   {
     ContactHistory store;
-    engine->springs().to_store(store, n());
+    engine->springs().to_cpu(store, n());
     std::vector<Spring> all;
-    for (int i = 0; i < n(); i++) all.insert(all.end(), store.of(i), store.of(i) + store.count(i));
+    for (int i = 0; i < n(); i++)
+      for (const Spring &spring : springs_of(store, i)) all.push_back(spring);
     return all;
   }
 };

@@ -146,7 +146,7 @@ class EngineOn : public WallEngine {
   }
 
   StepResults &results() override { return results_; }
-  Springs &springs() override { return springs_; }
+  ResidentRows &springs() override { return springs_; }
   int n_candidates() const override { return static_cast<int>(broad_phase_.n()); }
 
   StepDiagnostics read_diagnostics() override
@@ -326,7 +326,7 @@ class EngineOn : public WallEngine {
   void make_room(const Spheres &spheres, const StepCounts &seen)
   {
     if (seen.too_large) throw_for(spheres, seen);
-    springs_.make_room(broad_phase_.n(), seen);
+    springs_.reserve_places(broad_phase_.n(), seen);
     if (B::kOnCpu) return;
     const bool several = broad_phase_.uses_slots();
     work_lists_.clear(b_, broad_phase_.n(), several ? broad_phase_.slots().n_multi_mesh() : 0,

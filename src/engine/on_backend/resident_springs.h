@@ -5,22 +5,43 @@
 #pragma once
 
 #include "backend/backend.h"
-#include "base/countable.h"
-#include "base/packed_integer.h"
-#include "contact/contact_history.h"
 #include "contact/feature_turn.h"
-#include "engine/springs.h"
+#include "contact/spring.h"
+#include "engine/on_backend/rows_on.h"
 #include "engine/step/step_job.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace lsdcd {
 
+// The springs of a pool as rows: a row is a spring as pack_spring() writes it, followed by its n_extra numbers.
+struct SpringRows {
+  Spring *springs;
+  Real *extra;
+  int n_extra;
+
+  LSDCD_FN int size() const { return kPackedSpring + n_extra; }
+  LSDCD_FN void write(std::size_t place, double *to) const
+  {
+    to = pack_spring(springs[place], to);
+    for (int e = 0; e < n_extra; e++) to[e] = extra[place * n_extra + e];
+  }
+  LSDCD_FN void read(std::size_t place, const double *from) const
+  {
+    from = unpack_spring(from, springs[place]);
+    for (int e = 0; e < n_extra; e++) extra[place * n_extra + e] = from[e];
+  }
+};
+
 template <class B>
-class ResidentSprings : public Springs {
+class ResidentSprings : public RowsOn<B, SpringRows> {
+  using Base = RowsOn<B, SpringRows>;
+  using Base::b_;
+  using Base::count_;
+  using Base::end_;
+  using Base::first_;
   template <class T>
-  using Array = typename B::template Array<T>;
+  using Array = typename Base::template Array<T>;
 
   struct Pool {
     Array<Spring> springs;
@@ -33,39 +54,45 @@ class ResidentSprings : public Springs {
  public:
   // `counts`: the counts in which kernels note how much of a pool a step has used. Backend and counts must outlive this object.
   ResidentSprings(B &backend, const LawTraits &traits, StepCounts *counts) :
-      b_(backend), traits_(traits), counts_(counts)
+      Base(backend, "springs in one process"), traits_(traits), counts_(counts)
   {
   }
 
-  int *first() override { return first_.data(); }
-  int *count() override { return count_.data(); }
   SpringsView view() const
   {
     const Pool &pool = pool_[now_];
     return {{first_.data()}, {count_.data()}, pool.springs.data(), pool.extra.data()};
   }
 
+  SpringRows rows() override
+  {
+    Pool &pool = pool_[now_];
+    return {pool.springs.data(), pool.extra.data(), traits_.n_extra};
+  }
+
+  // A law that keeps nothing has neither springs nor counts of them.
   void grow(int n_spheres) override
   {
-    const std::size_t n = n_spheres;
-    if (!traits_.history || n <= count_.size()) return;
-    Array<int> first(n), count(n);
-    int *to_first = first.data(), *to_count = count.data();
-    const int *from_first = first_.data(), *from_count = count_.data();
-    const std::size_t before = count_.size();
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
-      to_first[i] = i < before ? from_first[i] : 0;
-      to_count[i] = i < before ? from_count[i] : 0;
-    });
-    b_.wait();
-    first_ = std::move(first);
-    count_ = std::move(count);
+    if (traits_.history) Base::grow(n_spheres);
+  }
+  void to_cpu(KeptRows &to, int n_spheres) override
+  {
+    if (traits_.history) Base::to_cpu(to, n_spheres);
+  }
+  void from_cpu(const KeptRows &from, int n_spheres) override
+  {
+    if (traits_.history) Base::from_cpu(from, n_spheres);
+  }
+  void unpack(int n, const int *to, const double *buffer, int n_first, int second) override
+  {
+    if (end_ == kUnknown) end_ = pool_[now_].shared + read_one(b_, counts_).shared_used[now_];
+    Base::unpack(n, to, buffer, n_first, second);
   }
 
   // Reserves places for steps over n candidate spheres, each of which has a place of its own for a single contact. Spheres with
   // more contacts share the places after these: three for each sphere, as in the corner of a box, or twice as many as were
   // shared last, and some for spheres with many contacts.
-  void make_room(std::size_t n, const StepCounts &last)
+  void reserve_places(std::size_t n, const StepCounts &last)
   {
     n_candidates_ = n;
     wanted_ = 0;
@@ -162,120 +189,6 @@ class ResidentSprings : public Springs {
   const StepContact *contacts() const { return pool_[written_].contacts.data(); }
   const Real *extra_of_contacts() const { return pool_[written_].extra.data(); }
 
-  void to_store(ContactHistory &store, int n_spheres) override
-  {
-    if (!traits_.history) return;
-    const std::size_t n = n_spheres;
-    grow(n_spheres);
-    Array<int> offset(n);
-    const std::size_t total = offsets(n, offset.data());
-    Array<Spring> springs(total);
-    Array<Real> extra(total * traits_.n_extra);
-    const SpringsView from = view();
-    const int n_extra = traits_.n_extra;
-    const int *at = offset.data();
-    Spring *to = springs.data();
-    Real *to_extra = extra.data();
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
-      for (int c = 0; c < from.count[i]; c++) {
-        const std::size_t source = std::size_t(from.first[i]) + c, target = std::size_t(at[i]) + c;
-        to[target] = from.pool[source];
-        for (int e = 0; e < n_extra; e++)
-          to_extra[target * n_extra + e] = from.extra[source * n_extra + e];
-      }
-    });
-    store.assign(to_cpu(b_, offset, n), to_cpu(b_, count_, n), to_cpu(b_, springs, total),
-                 to_cpu(b_, extra, total * n_extra));
-  }
-
-  void from_store(const ContactHistory &store, int n_spheres) override
-  {
-    if (!traits_.history) return;
-    const std::size_t n = n_spheres;
-    grow(n_spheres);
-    const SpringsView from = store.view();
-    Pool &pool = pool_[now_];
-    const std::size_t size = store.pool_size();
-    if (pool.size < size) pool = make(with_spare(size));
-    b_.copy_in(from.first.at, first_.data(), n);
-    b_.copy_in(from.count.at, count_.data(), n);
-    // Spheres after these have no springs in this pool.
-    put_all(b_, count_.data() + n, count_.size() - n, 0);
-    b_.copy_in(from.pool, pool.springs.data(), size);
-    if (traits_.n_extra > 0) b_.copy_in(from.extra, pool.extra.data(), size * traits_.n_extra);
-    b_.wait();
-    end_ = size;
-  }
-
-  int largest_packed_size(int n) override
-  {
-    const int *count = count_.data();
-    return 1 + per_spring() * b_.template largest<int>(
-                                  n, [=] LSDCD_LAMBDA(std::size_t i) -> int { return count[i]; });
-  }
-
-  int most_packed_size() const override { return 1 + per_spring() * kMaxContacts; }
-
-  int pack(int n, const int *which, const int *from, double *buffer) override
-  {
-    Array<int> offset(n);
-    int *at = offset.data(), *first = first_.data(), *count = count_.data();
-    const SpringsView springs = view();
-    const int per_spring = this->per_spring(), n_extra = traits_.n_extra;
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = 1 + per_spring * count[which[k]]; });
-    const int total = numbered(std::int64_t(n) + numbered(b_.exclusive_scan(at, n)));
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      const int i = which[k];
-      const int begin = n + at[k];
-      buffer[k] = as_double(begin);
-      double *to = buffer + begin;
-      *to++ = count[i];
-      for (int c = 0; c < count[i]; c++) {
-        const std::size_t source = std::size_t(springs.first[i]) + c;
-        to = pack_spring(springs.pool[source], to);
-        for (int e = 0; e < n_extra; e++) *to++ = springs.extra[source * n_extra + e];
-      }
-      const int j = from[k];
-      if (j >= 0) {
-        first[i] = first[j];
-        count[i] = count[j];
-      }
-    });
-    b_.wait();
-    return total;
-  }
-
-  void unpack(int n, const int *to, const double *buffer, int n_first, int second) override
-  {
-    if (end_ == kUnknown) end_ = pool_[now_].shared + read_one(b_, counts_).shared_used[now_];
-    Array<int> offset(n);
-    int *at = offset.data(), *first = first_.data(), *count = count_.data();
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      at[k] =
-          to[k] < 0 ? 0 : static_cast<int>(buffer[place_in_message(buffer, k, n_first, second)]);
-    });
-    const std::size_t total = numbered(b_.exclusive_scan(at, n));
-    extend(end_ + total);
-    Pool &pool = pool_[now_];
-    Spring *springs = pool.springs.data();
-    Real *extra = pool.extra.data();
-    const int n_extra = traits_.n_extra, begin = static_cast<int>(end_);
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      const int i = to[k];
-      if (i < 0) return;
-      const double *from = buffer + place_in_message(buffer, k, n_first, second);
-      first[i] = begin + at[k];
-      count[i] = static_cast<int>(*from++);
-      for (int c = 0; c < count[i]; c++) {
-        const std::size_t target = std::size_t(first[i]) + c;
-        from = unpack_spring(from, springs[target]);
-        for (int e = 0; e < n_extra; e++) extra[target * n_extra + e] = *from++;
-      }
-    });
-    b_.wait();
-    end_ += total;
-  }
-
   std::size_t bytes() const
   {
     const std::size_t places = pool_[0].size + pool_[1].size;
@@ -288,20 +201,7 @@ class ResidentSprings : public Springs {
   static constexpr std::size_t kUnknown = ~std::size_t(0);
   static constexpr std::size_t kSparePlaces = 65536;
 
-  static int numbered(std::int64_t n)
-  {
-    return countable_here(n, "numbers of springs in one process", "use more processes");
-  }
-  int per_spring() const { return kPackedSpring + traits_.n_extra; }
-
-  std::size_t offsets(std::size_t n, int *to)
-  {
-    copy_all(b_, count_.data(), to, n);
-    return numbered(b_.exclusive_scan(to, n));
-  }
-
-  // Extends the pool to n springs, and keeps the present ones.
-  void extend(std::size_t n)
+  void make_room(std::size_t n) override
   {
     Pool &pool = pool_[now_];
     if (pool.size >= n) return;
@@ -315,7 +215,7 @@ class ResidentSprings : public Springs {
   // Makes a pool of n places. The index of a place must fit in an int.
   Pool make(std::size_t n)
   {
-    numbered(n);
+    this->numbered(static_cast<std::int64_t>(n));
     Pool pool;
     if (traits_.history) pool.springs = Array<Spring>(n);
     pool.extra = Array<Real>(traits_.history ? n * traits_.n_extra : 0);
@@ -324,14 +224,11 @@ class ResidentSprings : public Springs {
     return pool;
   }
 
-  B &b_;
   LawTraits traits_;
   StepCounts *counts_;
-  Array<int> first_, count_;
   Pool pool_[2];
   int now_ = 0, written_ = 0;    // the pool that steps read, and the one that the last step wrote
   std::size_t n_candidates_ = 0, wanted_ = 0;
-  std::size_t end_ = 0;    // end of the used places in the pool that is read
 };
 
 }    // namespace lsdcd

@@ -14,6 +14,15 @@
 
 namespace lsdcd {
 
+// Gives the feature of a packed spring another name.
+static void rename_feature(Real *row, const HistoryExchange::FeatureName &name)
+{
+  Spring s;
+  unpack_location(*row, s);
+  s.feature = name(static_cast<int>(s.mesh), s.feature);
+  *row = packed_location(s);
+}
+
 void HistoryExchange::grow(int room)
 {
   room_ = room;
@@ -27,7 +36,7 @@ void HistoryExchange::grow(int room)
 ContactHistory &HistoryExchange::on_cpu()
 {
   if (with_engine_) {
-    engine_->springs().to_store(springs_, n_with_engine_);
+    engine_->springs().to_cpu(springs_, n_with_engine_);
     springs_.grow(std::max(room_, n_with_engine_));
     with_engine_ = false;
   }
@@ -44,13 +53,13 @@ void HistoryExchange::clear()
 void HistoryExchange::to_engine(int n)
 {
   if (with_engine_ || !is_on()) return;
-  engine_->springs().from_store(springs_, n);
+  engine_->springs().from_cpu(springs_, n);
   n_with_engine_ = n;
   with_engine_ = true;
   grow(room_);
 }
 
-Springs &HistoryExchange::in_engine(int n)
+ResidentRows &HistoryExchange::in_engine(int n)
 {
   to_engine(n);
   return engine_->springs();
@@ -58,17 +67,14 @@ Springs &HistoryExchange::in_engine(int n)
 
 int HistoryExchange::max_packed_size() const
 {
-  return is_on() ? 1 + springs_.doubles_per_spring() * kMaxContacts : 0;
+  return is_on() ? 1 + springs_.row_size() * kMaxContacts : 0;
 }
 
 int HistoryExchange::pack_saved(int i, double *buffer, const FeatureName &name) const
 {
   const int size = springs_.pack(i, buffer);
-  for (int k = 0; k < springs_.count(i); k++) {
-    Spring s = springs_.of(i)[k];
-    s.feature = name(static_cast<int>(s.mesh), s.feature);
-    buffer[1 + k * springs_.doubles_per_spring()] = packed_location(s);
-  }
+  for (int k = 0; k < springs_.count(i); k++)
+    rename_feature(buffer + 1 + k * springs_.row_size(), name);
   return size;
 }
 
@@ -92,12 +98,17 @@ void HistoryExchange::unpack_saved(int i, const double *buffer, int size)
 {
   const int count = static_cast<int>(buffer[0]);
   if (count == 0) return;
-  const int n_extra = (size - 1) / count - kPackedSpring, more = n_extra - springs_.n_extra();
-  if (!is_on() || !kind_is_ours_ || size != 1 + count * (kPackedSpring + n_extra) ||
-      !(more == 0 || std::abs(more) == kKeptLosses))
+  const int each = (size - 1) / count, more = each - springs_.row_size();
+  if (!is_on() || !kind_is_ours_ || size != 1 + count * each ||
+      !(more == 0 || std::abs(more) == kKeptLosses)) {
     other_law_++;
-  else
-    springs_.unpack(i, buffer, n_extra);
+    return;
+  }
+  springs_.clear(i);
+  Real *const rows = springs_.add(i, count);
+  for (int k = 0; k < count; k++)
+    std::copy_n(buffer + 1 + k * each, std::min(each, springs_.row_size()),
+                rows + k * springs_.row_size());
 }
 
 int HistoryExchange::drop_unknown(int n, const std::function<bool(const Spring &)> &is_there)
@@ -105,7 +116,7 @@ int HistoryExchange::drop_unknown(int n, const std::function<bool(const Spring &
   int lost = 0;
   for (int i = 0; is_on() && i < n; i++)
     for (int k = 0; k < springs_.count(i); k++)
-      if (!is_there(springs_.of(i)[k])) {
+      if (!is_there(springs_.spring(i, k))) {
         lost++;
         springs_.clear(i);
         break;
@@ -132,7 +143,8 @@ void HistoryExchange::check_restored(int n, const std::function<bool(const Sprin
 
 void HistoryExchange::rename_features(const FeatureName &name)
 {
-  if (is_on()) springs_.rename_features(name);
+  for (int i = 0; is_on() && i < springs_.n_grains(); i++)
+    for (int k = 0; k < springs_.count(i); k++) rename_feature(springs_.row(i, k), name);
 }
 
 }    // namespace lsdcd

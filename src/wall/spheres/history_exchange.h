@@ -46,13 +46,13 @@ class HistoryExchange {
   void to_engine(int n);
   // Gives the history to the engine as to_engine() does, and returns it, for a host that moves spheres where the engine
   // computes: it packs, unpacks and sorts the history there.
-  Springs &in_engine(int n);
+  ResidentRows &in_engine(int n);
   bool is_with_engine() const { return with_engine_; }
   // The engine has the history of the first n spheres of the host.
   void set_spheres_of_engine(int n) { n_with_engine_ = n; }
   int spheres_of_engine() const { return n_with_engine_; }
 
-  int numbers_per_contact() const { return springs_.doubles_per_spring(); }
+  int numbers_per_contact() const { return springs_.row_size(); }
   // Numbers that one sphere has in a message or a file, at most.
   int max_packed_size() const;
 
