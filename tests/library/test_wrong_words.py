@@ -132,6 +132,9 @@ def is_as(fix, library):
     if fix is None or library is None:
         alone, of = (library, OF_LIBRARY_ALONE) if fix is None else (fix, OF_FIX_ALONE)
         return alone is None or any(text in alone for text in of)
+    near = re.match(rf"('\S+' is not a keyword); the nearest is '({'|'.join(OF_SCRIPTS)})\b", fix)
+    if near:    # which is no keyword of the library
+        return library.startswith(near[1])
     for pattern, there in OF_LAMMPS:
         fix = re.sub(pattern, there, fix)
     return fix == library or library.startswith(OF_LIBRARY_ALONE)
