@@ -543,7 +543,7 @@ void PairGranularLsdcd::tell_laws()
 void PairGranularLsdcd::check_step()
 {
   double shortest = INFINITY;
-  bool hertz = false;
+  bool at_overlap = false;
   std::string of;
   for (int i = 1; i <= n_types; i++)
     for (int j = i; j <= n_types; j++) {
@@ -558,12 +558,12 @@ void PairGranularLsdcd::check_step()
           0.4 * reduced(a.least_mass * a.least * a.least, b.least_mass * b.least * b.least));
       if (!(time < shortest)) continue;
       shortest = time;
-      hertz = lsdcd::is_hertzian(law);
+      at_overlap = lsdcd::stiffens(law);
       of = types_text(i, j);
     }
   if (!std::isfinite(shortest)) return;
   const double longest = shortest / lsdcd::kStepsPerContact;
-  const std::string how = hertz ? " (hertz, at an overlap of 1 % of the reduced radius)" : "";
+  const std::string how = at_overlap ? " (at an overlap of 1 % of the reduced radius)" : "";
   if (warned_of == 0)
     log("the shortest contact, of types " + of + ", lasts " + lsdcd::number_text(shortest) + how +
         ": the timestep should be at most " + lsdcd::number_text(longest));

@@ -78,19 +78,6 @@ ContactLaw granular_law(NormalModel normal)
   return law;
 }
 
-bool ContactLaw::is_adhesive() const
-{
-  switch (normal) {
-    case NormalModel::hooke:
-    case NormalModel::hertz:
-      return false;
-    case NormalModel::dmt:
-    case NormalModel::jkr:
-      break;
-  }
-  return true;
-}
-
 Real ContactLaw::pull_off() const
 {
   return is(NormalModel::jkr) ? JkrNormal(modulus, surface_energy).pull_off : 0;
@@ -107,17 +94,7 @@ Real tsuji_damping(Real e)
 Real restitution_damping(NormalModel normal, Real e)
 {
   const Real l = std::log(e);
-  Real factor = 2;
-  switch (normal) {
-    case NormalModel::hooke:
-      break;
-    case NormalModel::hertz:
-    case NormalModel::dmt:
-    case NormalModel::jkr:
-      factor = std::sqrt(Real(5));
-      break;
-  }
-  return -factor * l / std::sqrt(kPi * kPi + l * l);
+  return -facts_of(normal).no_rebound * l / std::sqrt(kPi * kPi + l * l);
 }
 
 Real cutoff_of(const ContactLaw &law, Real radius)

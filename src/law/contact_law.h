@@ -67,8 +67,7 @@ struct ContactLaw {
   // Returns whether it is one of LAMMPS's styles before `granular`. These have formulas of their own.
   bool is_classic() const { return damping == DampingModel::classic; }
   bool has_heat() const { return heat.is_on(); }
-  // Can the normal force pull, though nothing moves?
-  bool is_adhesive() const;
+  bool is_adhesive() const { return facts_of(normal).is_adhesive; }
   // Does the tangential spring shrink as the contact unloads?
   bool rescales() const { return tangential >= TangentialModel::mindlin_rescale; }
   // Does friction stretch a spring? Of `granular`.

@@ -129,7 +129,7 @@ struct AddedModel {
     memory.shear = sliding.shear;
     if (rolling.is_on()) {
       const Real scale = base.scale(c);
-      const RollingInput<C> in = {c, fabs(out.normal), base.elastic.secant(scale),
+      const RollingInput<C> in = {c, fabs(out.normal), base.elastic.secant(c, scale),
                                   scale * k_tangent};
       rolling.act(in, memory, 0, out.contact_torque, out.energy);
     }
@@ -156,7 +156,7 @@ struct AddedModel {
     if (rolling.is_on()) {
       const Real scale = base.scale(c);
       const Real limit = fabs(out.normal + (cohesion.is_on() ? cohesion.pull(c) : 0));
-      const RollingInput<C> in = {c, limit, base.elastic.secant(scale), scale * k_tangent};
+      const RollingInput<C> in = {c, limit, base.elastic.secant(c, scale), scale * k_tangent};
       rolling.part(in, begun, memory, 0, parts);
     }
     if (cohesion.is_on()) parts.elastic -= cohesion.pull(c);
@@ -234,7 +234,7 @@ struct GranularModel {
     out.contact_torque = {0, 0, 0};
     out.heat = 0;
     if constexpr (kContactTorque)
-      rolling.act(RollingInput<C>{c, limit, elastic.secant(a), tangential.stiffness(a)}, memory,
+      rolling.act(RollingInput<C>{c, limit, elastic.secant(c, a), tangential.stiffness(a)}, memory,
                   kRolled, out.contact_torque, out.energy);
     if constexpr (kHistory && kFull)
       if (twisting.is_on()) {
@@ -284,7 +284,7 @@ struct GranularModel {
     else
       parts.slides = is_below(out.tangential, tangential.xgammat * gamma, c.v_tangent);
     if constexpr (kFull) {
-      rolling.part(RollingInput<C>{c, limit, elastic.secant(a), tangential.stiffness(a)}, begun,
+      rolling.part(RollingInput<C>{c, limit, elastic.secant(c, a), tangential.stiffness(a)}, begun,
                    memory, kRolled, parts);
       if (twisting.is_on()) {
         const TwistCoefficients t = twisting.coefficients(

@@ -26,7 +26,7 @@ ContactSlopes slopes_of(const ContactLaw &law, Real overlap, Real radius, Real m
 {
   const Contact c = contact_of(overlap, radius, mass);
   return with_normal(law, [&](const auto &normal) -> ContactSlopes {
-    const Real a = normal.contact_radius(c), k = normal.tangent(a);
+    const Real a = normal.contact_radius(c), k = normal.tangent(c, a);
     if (law.is_classic()) {
       const Real scale = normal.uses_contact_radius() ? a : 1;
       return {{k, scale * mass * law.eta},
@@ -58,8 +58,8 @@ Real rolling_stiffness(const ContactLaw &law, Real overlap, Real radius)
 {
   const Real *const numbers = law.rolling.numbers, mu = numbers[0];
   const Contact c = contact_of(overlap, radius, 0);
-  const Real secant =
-      with_normal(law, [&](const auto &normal) { return normal.secant(normal.contact_radius(c)); });
+  const Real secant = with_normal(
+      law, [&](const auto &normal) { return normal.secant(c, normal.contact_radius(c)); });
   switch (law.rolling.model) {
     case RollingModel::sds:
       return numbers[0] * radius * radius;

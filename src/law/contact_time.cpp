@@ -11,16 +11,34 @@
 
 namespace lsdcd {
 
-bool is_hertzian(const ContactLaw &law)
+namespace {
+
+// Returns a contact with an overlap of 1 % of the radius.
+Contact shallow_contact(Real radius)
 {
-  return with_normal(law, [](const auto &normal) { return normal.uses_contact_radius(); });
+  Contact c = {};
+  c.overlap = 0.01 * radius;
+  c.radius = radius;
+  return c;
+}
+
+}    // namespace
+
+bool stiffens(const ContactLaw &law)
+{
+  const Contact c = shallow_contact(1);
+  return with_normal(law, [&c](const auto &normal) {
+    const Real a = normal.contact_radius(c);
+    return normal.tangent(c, a) > normal.secant(c, a);
+  });
 }
 
 Real contact_time(const ContactLaw &law, Real mass, Real radius, Real ftm2v, Real inertia)
 {
-  const Real a = std::sqrt(0.01 * radius * radius);    // the contact's radius
-  const Real k = with_normal(law, [a](const auto &normal) { return normal.tangent(a); });
-  const Real gamma = (law.is_classic() ? law.eta : 0) * (is_hertzian(law) ? a : 1);
+  const Contact c = shallow_contact(radius);
+  const Real a = std::sqrt(c.overlap * radius);    // the contact's radius without adhesion
+  const Real k = with_normal(law, [&](const auto &normal) { return normal.tangent(c, a); });
+  const Real gamma = (law.is_classic() ? law.eta : 0) * (stiffens(law) ? a : 1);
   const Real omega_sq = ftm2v * k / mass, half = 0.5 * ftm2v * gamma;
   const Real damped_sq = omega_sq - half * half;
   const Real of_normal = kPi / std::sqrt(damped_sq > 0 ? damped_sq : omega_sq);

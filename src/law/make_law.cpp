@@ -86,8 +86,12 @@ void finish_granular(LawDraft &d)
   // The damping says what the second number of the normal sub-model is.
   law.eta = d.second;
   if (law.damping != DampingModel::stiffness) return;
-  if (adhesive)
-    throw LawError("damping", "the damping does not work with the adhesive sub-model " + normal);
+  if (facts_of(law.normal).no_rebound == 0)
+    throw LawError("damping",
+                   "the damping (tsuji or coeff_restitution) takes a restitution, which no damping "
+                   "returns with the " +
+                       std::string(adhesive ? "adhesive " : "") + "sub-model " + normal +
+                       ": take another one");
   const bool exact = d.damping_name == std::string("coeff_restitution");
   if (d.second > 1 || (exact && d.second == 0))
     throw LawError("damping", "e = " + number_text(d.second) +

@@ -86,19 +86,11 @@ GranularModel<Normal, kHistory, kSet> granular_model(const ContactLaw &p, const 
           p.limit_damping};
 }
 
-// A new normal sub-model is named here if its formulas are in TouchingNormal.
+// Returns a normal sub-model whose formulas are in TouchingNormal, with its numbers.
 inline TouchingNormal touching_normal(const ContactLaw &p)
 {
-  switch (p.normal) {
-    case NormalModel::hooke:
-    case NormalModel::hertz:
-      return {p.normal, p.k_normal, 0};
-    case NormalModel::dmt:
-      return {p.normal, p.k_normal, 4 * kPi * p.surface_energy};
-    case NormalModel::jkr:
-      break;
-  }
-  throw std::logic_error("this normal sub-model acts beyond touch");
+  if (p.is(NormalModel::jkr)) throw std::logic_error("this normal sub-model acts beyond touch");
+  return {p.normal, p.k_normal, p.is_adhesive() ? 4 * kPi * p.surface_energy : 0};
 }
 
 inline JkrNormal jkr_normal(const ContactLaw &p)

@@ -6,17 +6,41 @@
 //   contact_radius(c)   length
 //   force(c, a)         elastic force, > 0 where it pushes
 //   energy(c, a)        what is held
-//   secant(a)           stiffness without adhesion, force over overlap: force/length
-//   tangent(a)          the same for a little more overlap: the slope of the force
+//   secant(c, a)        stiffness without adhesion, force over overlap: force/length
+//   tangent(c, a)       the same for a little more overlap: the slope of the force
 // where a is the contact radius, which a law computes only if something needs it.
 #pragma once
 
 #include "base/cube_root.h"
 #include "law/contact.h"
 
+#include <cmath>
+#include <stdexcept>
+
 namespace lsdcd {
 
 enum class NormalModel : ModelNumber { hooke, hertz, dmt, jkr };
+
+// What is true of a model whatever its numbers are.
+struct NormalFacts {
+  bool is_adhesive;    // can the force pull, though nothing moves?
+  // The damping, per square root of mass times secant stiffness, with which nothing rebounds; that of a restitution is a known
+  // part of it. 0: no damping returns a restitution at all speeds.
+  Real no_rebound;
+};
+inline NormalFacts facts_of(NormalModel model)
+{
+  switch (model) {
+    case NormalModel::hooke:
+      return {false, 2};
+    case NormalModel::hertz:
+      return {false, std::sqrt(Real(5))};
+    case NormalModel::dmt:
+    case NormalModel::jkr:
+      return {true, 0};
+  }
+  throw std::logic_error("facts_of (normal.h) has no case of this normal sub-model");
+}
 
 // Returns how far from its centre a sphere feels the wall. `pull_off` is for a radius of 1, and greater than 0 only for
 // adhesion that acts beyond contact.
@@ -34,8 +58,8 @@ struct HookeNormal {
 
   LSDCD_FN Real contact_radius(const Contact &c) const { return sqrt(c.overlap * c.radius); }
   LSDCD_FN Real force(const Contact &c, Real) const { return k * c.overlap; }
-  LSDCD_FN Real secant(Real) const { return k; }
-  LSDCD_FN Real tangent(Real) const { return k; }
+  LSDCD_FN Real secant(const Contact &, Real) const { return k; }
+  LSDCD_FN Real tangent(const Contact &, Real) const { return k; }
   LSDCD_FN Real energy(const Contact &c, Real) const { return 0.5 * k * c.overlap * c.overlap; }
 };
 
@@ -46,8 +70,8 @@ struct HertzNormal {
 
   LSDCD_FN Real contact_radius(const Contact &c) const { return sqrt(c.overlap * c.radius); }
   LSDCD_FN Real force(const Contact &c, Real a) const { return a * k * c.overlap; }
-  LSDCD_FN Real secant(Real a) const { return a * k; }
-  LSDCD_FN Real tangent(Real a) const { return a * (1.5 * k); }
+  LSDCD_FN Real secant(const Contact &, Real a) const { return a * k; }
+  LSDCD_FN Real tangent(const Contact &, Real a) const { return a * (1.5 * k); }
   LSDCD_FN Real energy(const Contact &c, Real a) const
   {
     return 0.4 * k * a * c.overlap * c.overlap;
@@ -59,24 +83,27 @@ struct HertzNormal {
 // `normal` the force with damping. Adhesion presses the surfaces together even where the forces
 // cancel.
 
-// `hooke`, `hertz` and `dmt` share one kernel: the choice is the same for all contacts of a wall, and touching_normal()
-// (smallest_model.h) says which models it has. DMT (Derjaguin, Muller and Toporov 1975) is Hertz minus a constant pull
-// 4 pi gamma R while the spheres touch.
+// `hooke`, `hertz` and `dmt` share one kernel: the choice is the same for all contacts of a wall. DMT (Derjaguin, Muller and
+// Toporov 1975) is Hertz minus a constant pull 4 pi gamma R while the spheres touch.
 struct TouchingNormal {
   static constexpr bool kBeyondContact = false;    // does it act past touch?
   NormalModel model;
   Real k;       // force/length (hooke), force/length^2
   Real pull;    // 4 pi gamma, force/length; 0 but for dmt
 
-  LSDCD_FN bool uses_contact_radius() const { return model != NormalModel::hooke; }    // in force()
+  // Does force() read a, or the radius of the contact?
+  LSDCD_FN bool uses_contact_radius() const { return model != NormalModel::hooke; }
   LSDCD_FN Real contact_radius(const Contact &c) const { return sqrt(c.overlap * c.radius); }
   LSDCD_FN Real force(const Contact &c, Real a) const
   {
     if (!uses_contact_radius()) return k * c.overlap;
     return a * k * c.overlap - pull * c.radius;
   }
-  LSDCD_FN Real secant(Real a) const { return uses_contact_radius() ? a * k : k; }
-  LSDCD_FN Real tangent(Real a) const { return uses_contact_radius() ? a * (1.5 * k) : k; }
+  LSDCD_FN Real secant(const Contact &, Real a) const { return uses_contact_radius() ? a * k : k; }
+  LSDCD_FN Real tangent(const Contact &, Real a) const
+  {
+    return uses_contact_radius() ? a * (1.5 * k) : k;
+  }
   LSDCD_FN Real limit(const Contact &c, Real f, Real normal) const
   {
     return fabs(model == NormalModel::dmt ? f + 2 * pull * c.radius : normal);
@@ -135,8 +162,11 @@ struct JkrNormal {
   {
     return Real(4) / 3 * modulus * a * a * a / c.radius - 4 * root * a * sqrt(a);
   }
-  LSDCD_FN Real secant(Real a) const { return Real(4) / 3 * modulus * a; }
-  LSDCD_FN Real tangent(Real a) const { return a * (1.5 * (Real(4) / 3 * modulus)); }
+  LSDCD_FN Real secant(const Contact &, Real a) const { return Real(4) / 3 * modulus * a; }
+  LSDCD_FN Real tangent(const Contact &, Real a) const
+  {
+    return a * (1.5 * (Real(4) / 3 * modulus));
+  }
   LSDCD_FN Real limit(const Contact &c, Real f, Real) const
   {
     return fabs(f + 6 * kPi * surface_energy * c.radius);

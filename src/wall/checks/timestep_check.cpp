@@ -94,12 +94,11 @@ void TimestepCheck::check(Real dt, const HostSpheres &s)
   const Real ratio = dt / (shortest / kStepsPerContact);
   if (ratio <= worst_) return;
   worst_ = kWorse * ratio;
-  host_.warn(
-      "timestep " + number_text(dt) + " is more than a tenth of the shortest contact time " +
-      number_text(shortest) +
-      (is_hertzian(laws_.laws.front()) ? " (hertz, at an overlap of 1 % of the radius)" : "") +
-      (laws_.laws.front().rolling.is_on() ? " or that of a spring of rolling" : "") +
-      ": contacts will not be resolved");
+  host_.warn("timestep " + number_text(dt) + " is more than a tenth of the shortest contact time " +
+             number_text(shortest) +
+             (stiffens(laws_.laws.front()) ? " (at an overlap of 1 % of the radius)" : "") +
+             (laws_.laws.front().rolling.is_on() ? " or that of a spring of rolling" : "") +
+             ": contacts will not be resolved");
 }
 
 }    // namespace lsdcd
