@@ -638,8 +638,9 @@ TEST(pairs, of_each_sub_model_of_the_table_have_forces_of_their_own)
                          nullptr};
   const FullLanes lanes(10);
   const auto results = [&](const LawRows &rows) {
-    const std::optional<ContactLaw> law = law_of_rows(rows);
+    std::optional<ContactLaw> law = law_of_rows(rows);
     EXPECT_TRUE(law) << name_of(rows);
+    law->k_normal = law->k_tangent = 1e4;    // by formulas alone they differ
     std::vector<Real> all = results_one_by_one(pair_law(*law), lanes);
     for (const Real each : all) EXPECT_TRUE(std::isfinite(each)) << name_of(rows);
     return all;
