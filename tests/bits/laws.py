@@ -146,6 +146,10 @@ EFFECTS = {
     "turning_wear": effect(TURN + " mesh_fields SCRIPT_*.vtp every 100",
                            wall="wear finnie 1e-3"),
     "fields": effect("mesh_fields SCRIPT.vtp every 30"),
+    "energy_fields": effect("mesh_fields SCRIPT_*.vtp every 30 impact_spectrum SCRIPT_*.csv every 100",
+                            wall="energy impacts 0.01 wear finnie 1e-3"),
+    "impacts_of_two": effect(f"mesh_fields SCRIPT_a.vtp every 100 {PLATE} motion rotate 0 0 0 0 0 1 8 "
+                             "impact_spectrum SCRIPT_b.csv every 100", wall="impacts 0.01", laws=SOME + ("hooke",)),
     "stl": effect(TURN + " mesh_stl SCRIPT_*.stl every 100", laws=("hooke",)),
     "nearest": effect(wall="nearest 2"),
     "sum": effect(wall="corner sum"),
