@@ -26,10 +26,12 @@ namespace lsdcd {
 // The state of a step, which is first begun, then submitted, then collected.
 enum class StepState { none, begun, submitted };
 
-class NodeEngine;      // engine/nodes/node_engine.h
-class LoadEngine;      // engine/loads/load_engine.h
-class EnergyEngine;    // engine/loads/energy_engine.h
-class TriangleTree;    // tree/triangle_tree.h
+class NodeEngine;    // engine/nodes/node_engine.h
+template <class Row>
+class FeatureEngine;    // engine/loads/feature_engine.h
+struct Load;            // engine/loads/load.h
+class EnergyEngine;     // engine/loads/energy_engine.h
+class TriangleTree;     // tree/triangle_tree.h
 
 // Computes wall forces for the spheres of one process. The host calls begin(), choose_if_due(), submit() and collect() in every step.
 // Springs stay in the engine between steps and follow the spheres' indices; a host that moves spheres takes the springs out before and
@@ -118,7 +120,7 @@ class WallEngine {
   // that nodes() of that engine has returned belong to this engine from now on. Grids have to be built.
   virtual void take_nodes(WallEngine & /* from */) {}
   // Returns the object that adds up loads of features in the memory of the engine; null if the host reads contacts as fast.
-  virtual LoadEngine *loads() { return nullptr; }
+  virtual FeatureEngine<Load> *loads() { return nullptr; }
   // Returns the object that does the same for energy, if the settings record it.
   virtual EnergyEngine *energies() { return nullptr; }
 

@@ -21,14 +21,15 @@ Real face_area(const WeldedMesh &mesh, std::size_t face)
 
 }    // namespace
 
-std::vector<FaceField> load_fields(const WeldedMesh &mesh, const MeshLoads &loads,
-                                   double pressure_unit, bool with_wear, const Pose &pose)
+std::vector<FaceField> load_fields(const WeldedMesh &mesh, const FeatureRows<Load> &loads,
+                                   Real time, double pressure_unit, bool with_wear,
+                                   const Pose &pose)
 {
   std::vector<FaceField> fields = {{"normal_stress", {}}, {"shear_stress", {}}, {"contacts", {}}};
   if (with_wear) fields.insert(fields.end(), {{"worn_volume", {}}, {"worn_depth", {}}});
   const std::vector<Load> faces = loads.of_faces(mesh);
   FaceField force = {"force", {}, 3};
-  const Real per_time = loads.time() > 0 ? 1 / loads.time() : Real(0);
+  const Real per_time = time > 0 ? 1 / time : Real(0);
   for (std::size_t f = 0; f < faces.size(); f++) {
     const Load &l = faces[f];
     const Real area = face_area(mesh, f), stress = pressure_unit * per_time / area;
@@ -42,7 +43,7 @@ std::vector<FaceField> load_fields(const WeldedMesh &mesh, const MeshLoads &load
   return fields;
 }
 
-std::vector<FaceField> energy_fields(const WeldedMesh &mesh, const EnergyPlaces &places,
+std::vector<FaceField> energy_fields(const WeldedMesh &mesh, const FeatureRows<PlaceEnergy> &places,
                                      bool with_energy, bool with_impacts)
 {
   std::vector<FaceField> fields;

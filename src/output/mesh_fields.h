@@ -4,9 +4,10 @@
 // Numbers per triangle, in a file for ParaView and other VTK programs.
 #pragma once
 
+#include "engine/loads/load.h"
+#include "engine/loads/place_energy.h"
 #include "motion/pose.h"
-#include "output/energy_places.h"
-#include "output/mesh_loads.h"
+#include "output/feature_rows.h"
 
 #include <string>
 #include <vector>
@@ -19,14 +20,15 @@ struct FaceField {
   int n_components = 1;
 };
 
-// Stresses are averages over the time of the loads, in force/area times `pressure_unit`;
+// Stresses are averages over `time`, that of the loads, in force/area times `pressure_unit`;
 // `with_wear` adds the volume worn off and its depth, volume over the face's area. Forces on the
 // wall are averages in the frame of the mesh, turned to where the pose has it.
-std::vector<FaceField> load_fields(const WeldedMesh &mesh, const MeshLoads &loads,
-                                   double pressure_unit, bool with_wear, const Pose &pose = {});
+std::vector<FaceField> load_fields(const WeldedMesh &mesh, const FeatureRows<Load> &loads,
+                                   Real time, double pressure_unit, bool with_wear,
+                                   const Pose &pose = {});
 
 // Energy that contacts dissipate, and the number, energy and greatest speed of impacts, each where asked for.
-std::vector<FaceField> energy_fields(const WeldedMesh &mesh, const EnergyPlaces &places,
+std::vector<FaceField> energy_fields(const WeldedMesh &mesh, const FeatureRows<PlaceEnergy> &places,
                                      bool with_energy, bool with_impacts);
 
 // The mesh as the pose puts it, in a file of VTK's XML format for polygons (.vtp), which appears

@@ -49,10 +49,9 @@ WallState StateKeeper::save(Time time)
   all.time = time;
   all.average_every = wall_.average_every;
   for (const MeshPart &m : of_.meshes) {
-    const MeshLoads loads = of_.loads.gathered(m.index);
     MeshState &to = all.meshes.emplace_back();
     to.mesh = identity_of(m);
-    to.loads = {loads.time(), loads.packed()};
+    to.loads = {of_.loads.time(m.index), of_.loads.gathered(m.index).packed()};
     to.last = {{of_.totals.mesh(m.index), of_.coats.load(m.index)}};
     if (wall_.energy) to.energy = {of_.energy.mesh(m.index)};
     if (wall_.has_energy_places(m.spec)) to.energy_places = of_.records.gathered(m.index).packed();

@@ -504,20 +504,11 @@ StepResults *Wall::results() const
 void Wall::note_step(const HostSpheres &spheres)
 {
   const Step &step = input_.step;
-  static const std::vector<StepContact> none;
   StepResults *const left = results();
   if (spec_.average_every > 0 && step.kind == Step::step)
     means_.add(step, left, poses_, node_loads(), coats_.loads());
-  if (step.kind == Step::step)    // what sets a run up has no duration
-    for (const MeshPart *m : recorded_) {
-      const bool is_in_place = engine_->loads();
-      if (left && is_in_place) engine_->loads()->add(m->index, m->feature_counts(), step.dt);
-      loads_.add(m->index, left && !is_in_place ? left->contacts() : none, step.dt,
-                 left ? m->records() : MeshFeaturesView());
-    }
   if (spec_.energy) energy_.add(left, coats_.energy(), step);
-  if (step.kind == Step::step)
-    for (const MeshPart *m : with_energy_records_) note_energy_records(*m, left);
+  if (step.kind == Step::step) record(left);    // what sets a run up has no duration
   for (const MeshPart *m : changing_)
     if (left) m->surface->end(*left, step);
   if (step.kind == Step::setup) log_new_springs(step);
@@ -525,14 +516,20 @@ void Wall::note_step(const HostSpheres &spheres)
   if (step.kind == Step::setup) times_.begin_run();      // as the host's loop time
 }
 
-// Adds what becomes of energy at the triangles of a mesh. Contacts of coats are the same on all processes.
-void Wall::note_energy_records(const MeshPart &m, StepResults *left)
+// Adds a step to what is recorded by triangle.
+void Wall::record(const StepResults *left)
 {
-  if (left && engine_->energies()) records_.add(m.index, m.feature_counts());
-  if (left && !engine_->energies()) records_.add(m.index, left->energy_records(), m.records());
+  const Real dt = input_.step.dt;
+  const EnergyRecords records = left ? left->energy_records() : EnergyRecords();
   const std::vector<EnergyRecord> &of_coats = coats_.energy().records;
-  if (of_coats.empty() || !host_.is_first()) return;
-  records_.add(m.index, {of_coats.data(), static_cast<int>(of_coats.size())}, m.records());
+  const bool has_any = left || !of_coats.empty();
+  const auto part = [&](const MeshPart &m) -> RecordedMesh {
+    return {m.index, m.feature_counts(), has_any ? m.records() : MeshFeaturesView()};
+  };
+  for (const MeshPart *m : recorded_) loads_.add(part(*m), left ? &left->contacts() : nullptr, dt);
+  for (const MeshPart *m : with_energy_records_)
+    records_.add(part(*m), left ? &records : nullptr,
+                 {of_coats.data(), static_cast<int>(of_coats.size())}, dt);
 }
 
 // Where a wall comes, or comes again, among spheres that rest on it.

@@ -236,7 +236,7 @@ class Wall {
   void note_poses();
   std::vector<NodeLoad> node_loads();
   void note_step(const HostSpheres &spheres);
-  void note_energy_records(const MeshPart &m, StepResults *left);
+  void record(const StepResults *left);
   Real pressure(int mesh) const;    // in this step, in units of forces
 
   void choose_if_due(const Spheres &spheres);

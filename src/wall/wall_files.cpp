@@ -73,12 +73,13 @@ void WallFiles::write_fields(int mesh, std::int64_t step, double time, const Pos
                              LoadRecorder &loads, EnergyRecorder &energies)
 {
   const std::string name = settings_.meshes[mesh].fields.name, file = file_of_step(name, step);
-  const MeshLoads all = loads.gathered(mesh);
+  const FeatureRows<Load> all = loads.gathered(mesh);
   const bool has_energy = settings_.has_energy_places(settings_.meshes[mesh]);
-  const EnergyPlaces places = has_energy ? energies.gathered(mesh) : EnergyPlaces();
+  const FeatureRows<PlaceEnergy> places =
+      has_energy ? energies.gathered(mesh) : FeatureRows<PlaceEnergy>();
   const auto write = [&] {
     std::vector<FaceField> fields =
-        load_fields(*now.mesh, all, pressure_unit_, settings_.wears(), now.pose);
+        load_fields(*now.mesh, all, loads.time(mesh), pressure_unit_, settings_.wears(), now.pose);
     if (has_energy)
       for (FaceField &field :
            energy_fields(*now.mesh, places, settings_.energy, settings_.impact_speed > 0))

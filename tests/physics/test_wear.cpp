@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The loads of spheres on a wall: forces on its triangles and wear, against hand integration.
-#include "output/mesh_loads.h"
+#include "engine/loads/load.h"
+#include "output/feature_rows.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 
@@ -25,15 +26,16 @@ EngineSettings worn(EngineSettings s, WearModel wear)
 }
 
 // Takes a sphere along a path at constant velocity, n steps.
-MeshLoads drive(Scene &scene, const Vec3 &from, const Vec3 &v, Real dt, int n, Real per_work)
+FeatureRows<Load> drive(Scene &scene, const Vec3 &from, const Vec3 &v, Real dt, int n,
+                        Real per_work)
 {
   scene.add_sphere(from, kRadius, kMass, v);
-  MeshLoads loads;
+  FeatureRows<Load> loads;
   for (int i = 1; i <= n; i++) {
     scene.set_x(0, from + (i * dt) * v);
     scene.compute(dt);
-    loads.add(scene.engine->results().contacts().data(), scene.engine->results().n_contacts(), dt,
-              per_work);
+    loads.add(scene.engine->results().contacts().data(), scene.engine->results().n_contacts(),
+              LoadOf{dt, per_work});
   }
   return loads;
 }
@@ -49,10 +51,10 @@ TEST(wear, of_archard_is_force_times_way)
     const EngineSettings law =
         spring ? hooke_history(kStiffness, k, 0, gamma, mu) : hooke(kStiffness, 0, 100, mu);
     Scene scene(floor_mesh(16, 2, 5), kRadius, worn(law, WearModel::archard));
-    const MeshLoads loads = drive(scene, from, v, dt, 3000, per_work);
+    const FeatureRows<Load> loads = drive(scene, from, v, dt, 3000, per_work);
     const Real per_way = per_work * kStiffness * kOverlap, sticks = spring ? stretched : 0,
                whole = per_way * (speed * 3 - sticks);
-    EXPECT_NEAR(loads.worn(), whole, 1e-11 * whole);
+    EXPECT_NEAR(loads.total().worn, whole, 1e-11 * whole);
 
     const std::vector<Load> faces = loads.of_faces(scene.mesh);
     std::vector<Real> way_over(faces.size(), 0);
@@ -153,8 +155,9 @@ TEST(wear, goes_with_the_slip_on_a_moving_surface)
     EngineSettings law = worn(hooke(kStiffness, 0, 100, 0.3), WearModel::archard);
     law.surface.velocity = {2, 0, 0};
     Scene scene(floor_mesh(4, 2), kRadius, law);
-    const MeshLoads loads = drive(scene, {-1, 0.1, kRadius - kOverlap}, {v, 0, 0}, 1e-3, 500, 1);
-    EXPECT_NEAR(loads.worn(), v == 0 ? kStiffness * kOverlap * 2 * 0.5 : 0, 1e-8);
+    const FeatureRows<Load> loads =
+        drive(scene, {-1, 0.1, kRadius - kOverlap}, {v, 0, 0}, 1e-3, 500, 1);
+    EXPECT_NEAR(loads.total().worn, v == 0 ? kStiffness * kOverlap * 2 * 0.5 : 0, 1e-8);
   }
 }
 
@@ -175,17 +178,17 @@ TEST(wear, of_finnie_depends_on_the_angle)
     const Vec3 v = {speed * std::cos(a), 0, -speed * std::sin(a)};
     const int n = static_cast<int>(std::lround(depth / (speed * std::sin(a) * dt)));
     const Real reached = n * dt * speed * std::sin(a);
-    const MeshLoads loads = drive(scene, {-0.8, 0.1, kRadius}, v, dt, n, per_work);
+    const FeatureRows<Load> loads = drive(scene, {-0.8, 0.1, kRadius}, v, dt, n, per_work);
     const Real exact = per_work * finnie(a) * kStiffness * reached * reached / (2 * std::sin(a));
     // A sum at the ends of steps in place of the integral: 1/n of it.
-    EXPECT_NEAR(loads.worn(), exact, 1.01 * exact / n) << degrees;
+    EXPECT_NEAR(loads.total().worn, exact, 1.01 * exact / n) << degrees;
 
-    MeshLoads out;
+    FeatureRows<Load> out;
     scene.set_v(0, -v);
     scene.compute(dt);
-    out.add(scene.engine->results().contacts().data(), scene.engine->results().n_contacts(), dt,
-            per_work);
-    EXPECT_EQ(out.worn(), 0);
+    out.add(scene.engine->results().contacts().data(), scene.engine->results().n_contacts(),
+            LoadOf{dt, per_work});
+    EXPECT_EQ(out.total().worn, 0);
     EXPECT_GT(out.packed()[3], 0) << "the contact itself is there";
   }
 }
@@ -194,14 +197,14 @@ TEST(wear, of_finnie_is_none_where_a_sphere_slides)
 {
   Scene scene(floor_mesh(8, 2, 3), kRadius,
               worn(hooke(kStiffness, 0, 100, 0.3), WearModel::finnie));
-  EXPECT_EQ(drive(scene, {-1, 0.1, kRadius - kOverlap}, {1, 0, 0}, 1e-3, 100, 1).worn(), 0);
+  EXPECT_EQ(drive(scene, {-1, 0.1, kRadius - kOverlap}, {1, 0, 0}, 1e-3, 100, 1).total().worn, 0);
 }
 
 // Weight on the floor, and on both sides of an edge.
 TEST(stress, of_a_resting_sphere_is_its_weight)
 {
   Scene scene(floor_mesh(4, 2), kRadius, worn(hooke(kStiffness, 50), WearModel::none));
-  const MeshLoads loads = drive(scene, {0.3, 0.1, kRadius - 2e-4}, {0, 0, 0}, 1e-3, 10, 0);
+  const FeatureRows<Load> loads = drive(scene, {0.3, 0.1, kRadius - 2e-4}, {0, 0, 0}, 1e-3, 10, 0);
   Real normal = 0;
   int loaded = 0;
   for (const Load &l : loads.of_faces(scene.mesh)) {
@@ -210,17 +213,17 @@ TEST(stress, of_a_resting_sphere_is_its_weight)
     EXPECT_EQ(l.shear, 0);
     EXPECT_EQ(l.worn, 0);
   }
-  EXPECT_NEAR(normal / loads.time(), 20, 1e-9);
+  EXPECT_NEAR(normal / 0.01, 20, 1e-9);
   EXPECT_EQ(loaded, 1);
 
   Scene box(box_mesh({0, 0, 0}, {1, 1, 1}), kRadius, worn(hooke(kStiffness), WearModel::none));
   const Real r = std::sqrt(0.5) * (kRadius - kOverlap);
-  const MeshLoads edge = drive(box, {1 + r, 0.4, 1 + r}, {0, 0, 0}, 1e-3, 10, 0);
+  const FeatureRows<Load> edge = drive(box, {1 + r, 0.4, 1 + r}, {0, 0, 0}, 1e-3, 10, 0);
   const std::vector<Load> faces = edge.of_faces(box.mesh);
   int halves = 0;
   for (const Load &l : faces) {
     if (l.normal == 0) continue;
-    EXPECT_NEAR(l.normal / edge.time(), kStiffness * kOverlap / 2, 1e-9);
+    EXPECT_NEAR(l.normal / 0.01, kStiffness * kOverlap / 2, 1e-9);
     halves++;
   }
   EXPECT_EQ(halves, 2);
@@ -229,10 +232,11 @@ TEST(stress, of_a_resting_sphere_is_its_weight)
 TEST(stress, in_shear_is_the_friction)
 {
   Scene scene(floor_mesh(4, 2), kRadius, worn(hooke(kStiffness, 0, 1e4, 0.3), WearModel::none));
-  const MeshLoads loads = drive(scene, {-1, 0.1, kRadius - kOverlap}, {1, 0, 0}, 1e-3, 100, 0);
+  const FeatureRows<Load> loads =
+      drive(scene, {-1, 0.1, kRadius - kOverlap}, {1, 0, 0}, 1e-3, 100, 0);
   Real shear = 0;
   for (const Load &l : loads.of_faces(scene.mesh)) shear += l.shear;
-  EXPECT_NEAR(shear / loads.time(), 0.3 * kStiffness * kOverlap, 1e-9);
+  EXPECT_NEAR(shear / 0.1, 0.3 * kStiffness * kOverlap, 1e-9);
 }
 
 // Records are only read: what is computed beside them is what it is without.
@@ -307,9 +311,9 @@ TEST(step_contacts, of_crowded_spheres_are_all_there)
     for (int i = 0; i < scene.engine->results().n_contacts(); i++)
       EXPECT_GT(scene.engine->results().contacts()[i].normal, 0) << i;
     EXPECT_EQ(scene.engine->results().n_contacts(), scene.engine->results().totals().contacts);
-    MeshLoads loads;
-    loads.add(scene.engine->results().contacts().data(), scene.engine->results().n_contacts(), 1,
-              0);
+    FeatureRows<Load> loads;
+    loads.add(scene.engine->results().contacts().data(), scene.engine->results().n_contacts(),
+              LoadOf{1, 0});
     // The last record is the last sphere's, on the top of a post.
     const StepContact &last =
         scene.engine->results().contacts()[scene.engine->results().n_contacts() - 1];

@@ -10,10 +10,11 @@
 #include "effects/effects.h"
 #include "engine/broad_phase/selection_cpu.h"
 #include "engine/broad_phase/selection_gpu.h"
+#include "engine/loads/sums_on.h"
 #include "engine/on_backend/engine_on.h"
 #include "engine/step/compile_law.h"
 #include "grid/lookup/occupied_within.h"
-#include "output/mesh_loads.h"
+#include "output/feature_rows.h"
 #include "support/crowd.h"
 #include "support/device.h"
 #include "support/kept_springs.h"
@@ -21,9 +22,11 @@
 #include "support/sphere_arrays.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <map>
 #include <random>
 #include <type_traits>
 
@@ -604,14 +607,14 @@ TEST(engine, adds_up_the_loads_of_features_without_copying_contacts)
   for (Particles *p : {&in_place, &host}) p->engine->set_grid(flat.view());
   const FeatureCounts counts = {mesh.faces.size(), mesh.edges.size(), mesh.vertices.size()};
   for (const int takes : {0, 1}) {
-    MeshLoads oracle;
+    FeatureRows<Load> oracle, added;
     Real largest[8] = {};
     std::size_t most = 0;
     for (int k = 0; k < n_steps; k++) {
       host.step(0.01, Particles::Candidates::now);
       const std::vector<StepContact> contacts = host.engine->results().contacts();
       most = std::max(most, contacts.size());
-      oracle.add(contacts.data(), static_cast<int>(contacts.size()), 0.01, 1);
+      oracle.add(contacts.data(), static_cast<int>(contacts.size()), LoadOf{0.01, 1});
       for (const StepContact &c : contacts) {
         const Real numbers[] = {c.normal,  c.shear,   1,        c.wear_power,
                                 c.force.x, c.force.y, c.force.z};
@@ -631,7 +634,9 @@ TEST(engine, adds_up_the_loads_of_features_without_copying_contacts)
       }
       EXPECT_TRUE(in_place.engine->results().contacts().empty());
     }
-    const std::vector<Real> rows = in_place.engine->loads()->take(0), wanted = oracle.packed();
+    for (const RowOfFeature<Load> &of : in_place.engine->loads()->take(0))
+      added.add(of.feature, of.row);
+    const std::vector<Real> rows = added.packed(), wanted = oracle.packed();
     ASSERT_EQ(rows.size(), wanted.size());
     EXPECT_GT(rows.size(), 8 * 100u) << takes;
     EXPECT_LT(most, 1u << 13);
@@ -647,6 +652,66 @@ TEST(engine, adds_up_the_loads_of_features_without_copying_contacts)
     }
   }
   EXPECT_TRUE(in_place.engine->loads()->take(0).empty());
+}
+
+// Numbers are multiples of 1/8, of which sums are exact. Records are in any order, and some are of another mesh.
+TEST(engine, adds_up_the_energies_of_features_and_keeps_their_greatest_speed)
+{
+  const std::size_t n_faces = 20, n_edges = 30, n_vertices = 12, n_places = 62;
+  CpuBackend b;
+  FeatureSums<CpuBackend, PlaceEnergy> sums;
+  std::vector<ImpactBin> bins(kImpactBins);
+  const std::vector<Real> begins = begins_of_bins();
+  std::mt19937_64 random(5);
+  const auto below = [&](std::size_t n) { return static_cast<std::uint32_t>(random() % n); };
+  for (int takes = 0; takes < 2; takes++) {
+    std::map<FeatureCode, std::array<Real, 4>> exact;
+    std::int64_t impacts = 0;
+    for (int step = 0; step < 5; step++) {
+      std::vector<EnergyRecord> records(400);
+      for (EnergyRecord &r : records) {
+        const std::pair<FeatureKind, std::size_t> kinds[] = {{FeatureKind::face, n_faces},
+                                                             {FeatureKind::edge, n_edges},
+                                                             {FeatureKind::vertex, n_vertices - 4}};
+        const auto [kind, n] = kinds[below(3)];
+        r = {feature_code(kind, below(n)), below(2), below(800) / 8.0, 0, 0};
+        if (below(3) > 0) continue;
+        r.speed = (1 + below(80)) / 8.0;
+        r.impact = 2 * r.speed * r.speed;
+      }
+      const int n_records = 300;    // the rest is of steps before
+      for (int k = 0; k < n_records; k++) {
+        const EnergyRecord &r = records[k];
+        if (r.mesh != 1) continue;
+        std::array<Real, 4> &to = exact[r.feature];
+        to[0] += r.dissipated;
+        to[1] += r.speed > 0;
+        to[2] += r.impact;
+        to[3] = std::max(to[3], r.speed);
+        impacts += r.speed > 0;
+      }
+      const EnergyItems items = {
+          records.data(), records.size(), &n_records, 1, {bins.data(), begins.data()}, {}};
+      sums.add(b, items, {{}, n_faces, n_edges}, n_places);
+    }
+    const std::vector<RowOfFeature<PlaceEnergy>> rows = sums.take(b);
+    ASSERT_EQ(rows.size(), exact.size());
+    EXPECT_GT(rows.size(), 50u);
+    auto wanted = exact.begin();
+    for (const RowOfFeature<PlaceEnergy> &of : rows) {
+      const PlaceEnergy &row = of.row;
+      EXPECT_EQ(of.feature, wanted->first);
+      EXPECT_EQ(
+          (std::array<Real, 4>{row.dissipated, row.impacts, row.impact_energy, row.impact_speed}),
+          wanted->second);
+      ++wanted;
+    }
+    std::int64_t in_bins = 0;
+    for (const ImpactBin &bin : bins) in_bins += bin.count;
+    EXPECT_EQ(in_bins, impacts);
+    for (ImpactBin &bin : bins) bin = {};
+  }
+  EXPECT_TRUE(sums.take(b).empty());
 }
 
 TEST(engine, outputs_of_the_step_that_asks_for_them_are_those_of_always_asking)

@@ -27,31 +27,29 @@ StepContact on(FeatureKind kind, std::uint32_t index, Real normal, Real shear, R
 
 TEST(loads, are_integrals_over_time)
 {
-  MeshLoads loads;
+  FeatureRows<Load> loads;
   const StepContact first[] = {on(FeatureKind::face, 1, 2, 1, 8)};
   const StepContact second[] = {on(FeatureKind::face, 1, 4, 3, 16),
                                 on(FeatureKind::face, 0, -1, 0, 0)};
-  loads.add(first, 1, 0.5, 0.25);
-  loads.add(second, 2, 0.25, 0.25);
-  loads.add(nullptr, 0, 0.25, 0.25);
+  loads.add(first, 1, LoadOf{0.5, 0.25});
+  loads.add(second, 2, LoadOf{0.25, 0.25});
   const std::vector<Load> faces = loads.of_faces(weld(floor_mesh(1, 1), -1));
-  EXPECT_EQ(loads.time(), 1);
   EXPECT_EQ(faces[1].normal, 2);
   EXPECT_EQ(faces[1].shear, 1.25);
   EXPECT_EQ(faces[1].contacts, 0.75);
   EXPECT_EQ(faces[1].worn, 2);
   EXPECT_EQ(faces[1].force, (Vec3{-1.25, 0, -2}));
   EXPECT_EQ(faces[0].normal, -0.25);
-  EXPECT_EQ(loads.worn(), 2);
+  EXPECT_EQ(loads.total().worn, 2);
 }
 
 TEST(loads, of_edges_and_vertices_are_shared_evenly_by_their_faces)
 {
   const WeldedMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1);
   for (std::size_t e = 0; e < mesh.edges.size(); e++) {
-    MeshLoads loads;
+    FeatureRows<Load> loads;
     const StepContact r = on(FeatureKind::edge, static_cast<std::uint32_t>(e), 6, 2, 0);
-    loads.add(&r, 1, 1, 0);
+    loads.add(&r, 1, LoadOf{1, 0});
     Real sum = 0;
     const std::vector<Load> faces = loads.of_faces(mesh);
     for (std::size_t f = 0; f < faces.size(); f++) {
@@ -63,9 +61,9 @@ TEST(loads, of_edges_and_vertices_are_shared_evenly_by_their_faces)
     EXPECT_EQ(sum, 2);
   }
   for (std::size_t v = 0; v < mesh.vertices.size(); v++) {
-    MeshLoads loads;
+    FeatureRows<Load> loads;
     const StepContact r = on(FeatureKind::vertex, static_cast<std::uint32_t>(v), 0, 0, 60);
-    loads.add(&r, 1, 1, 1);
+    loads.add(&r, 1, LoadOf{1, 1});
     int n_around = 0;
     for (const auto &f : mesh.faces)
       n_around += std::count(f.begin(), f.end(), static_cast<int>(v));
@@ -77,32 +75,17 @@ TEST(loads, of_edges_and_vertices_are_shared_evenly_by_their_faces)
   }
 }
 
-TEST(loads, keep_wear_and_forget_stress_when_an_average_begins)
-{
-  MeshLoads loads;
-  const StepContact r = on(FeatureKind::face, 0, 6, 2, 5);
-  loads.add(&r, 1, 1, 1);
-  loads.begin_average();
-  EXPECT_EQ(loads.time(), 0);
-  EXPECT_EQ(loads.worn(), 5);
-  loads.add(&r, 1, 0.5, 1);
-  const Load face = loads.of_faces(weld(floor_mesh(1, 1), -1))[0];
-  EXPECT_EQ(face.normal, 3);
-  EXPECT_EQ(face.force, (Vec3{-1, 0, -3}));
-  EXPECT_EQ(face.worn, 7.5);
-}
-
 TEST(loads, packed_and_added_up_are_those_of_all)
 {
-  MeshLoads one, two, sum;
+  FeatureRows<Load> one, two, sum;
   const StepContact a[] = {on(FeatureKind::face, 7, 1, 2, 3), on(FeatureKind::vertex, 3, 4, 5, 6)};
   const StepContact b[] = {on(FeatureKind::vertex, 3, 7, 8, 9), on(FeatureKind::edge, 3, 1, 1, 1)};
-  one.add(a, 2, 0.5, 1);
-  two.add(b, 2, 0.5, 1);
-  for (const MeshLoads *part : {&one, &two}) sum.add_packed(part->packed());
-  one.add(b, 2, 0.5, 1);
+  one.add(a, 2, LoadOf{0.5, 1});
+  two.add(b, 2, LoadOf{0.5, 1});
+  for (const FeatureRows<Load> *part : {&one, &two}) sum.add_packed(part->packed());
+  one.add(b, 2, LoadOf{0.5, 1});
   EXPECT_EQ(sum.packed(), one.packed());
-  EXPECT_EQ(sum.packed().size(), 3u * MeshLoads::kPacked);
+  EXPECT_EQ(sum.packed().size(), 3u * FeatureRows<Load>::kPacked);
 }
 
 // The text between > and < of the array with that name, decoded.
@@ -130,11 +113,10 @@ TEST(mesh_fields, are_written_whole_and_exact)
   const TempDir dir;
   const std::string path = dir.path("fields.vtp");
   const WeldedMesh mesh = weld(floor_mesh(3, 1, 4), -1);
-  MeshLoads loads;
+  FeatureRows<Load> loads;
   const StepContact r = on(FeatureKind::face, 5, 6, 2, 5);
-  loads.add(&r, 1, 0.1, 1);
-  loads.add(nullptr, 0, 0.1, 1);
-  write_mesh_fields(path, mesh, load_fields(mesh, loads, 1000, true), 77, 0.25);
+  loads.add(&r, 1, LoadOf{0.1, 1});
+  write_mesh_fields(path, mesh, load_fields(mesh, loads, 0.2, 1000, true), 77, 0.25);
 
   const std::string xml = content(path);
   EXPECT_NE(xml.find("NumberOfPolys=\"18\""), std::string::npos);

@@ -10,8 +10,9 @@
 #include "box/loose_ends.h"
 #include "contact/find_contacts.h"
 #include "contact/history.h"
+#include "engine/loads/load.h"
 #include "grid/triangle_grid.h"
-#include "output/mesh_loads.h"
+#include "output/feature_rows.h"
 #include "support/brute_force_long.h"
 #include "support/meshes.h"
 #include "support/says.h"
@@ -282,8 +283,8 @@ TEST(periodic_images, loads_of_an_image_are_those_of_the_mesh)
   StepContact record = {};
   record.feature = out.feature[0];
   record.normal = 3;
-  MeshLoads loads;
-  loads.add(&record, 1, 0.5, 0, grid.view().wall);
+  FeatureRows<Load> loads;
+  loads.add(&record, 1, LoadOf{0.5, 0}, grid.view().wall);
   Real sum = 0;
   for (const Load &l : loads.of_faces(mesh)) sum += l.normal;
   EXPECT_EQ(sum, 1.5);

@@ -44,7 +44,7 @@ struct Process {
 
   void step(std::int64_t number)
   {
-    loads.add(0, {}, 1, {});
+    loads.add({0}, nullptr, 1);
     files.write_due(number, static_cast<double>(number), placed, &loads, energies);
   }
   void steps(std::int64_t first, std::int64_t last)
@@ -132,9 +132,9 @@ TEST(WallFiles, that_are_pipes_are_refused_and_stay)
 }
 
 // An engine that has added up the same row each time it is asked.
-struct OneRow : LoadEngine {
+struct OneRow : FeatureEngine<Load> {
   void add(int, const FeatureCounts &, Real) override {}
-  std::vector<Real> take(int) override { return {3, 1, 2, 4, 5, 6, 7, 8}; }
+  std::vector<RowOfFeature<Load>> take(int) override { return {{3, {1, 2, 4, 5, {6, 7, 8}}}}; }
 };
 
 TEST(WallFiles, take_what_an_engine_has_added_up)
@@ -173,12 +173,34 @@ TEST(WallFiles, need_no_loads_of_a_mesh_without_wear_and_mesh_fields)
   wall.settings.meshes.resize(2);
   wall.settings.meshes[1].fields.every = 10;
   LoadRecorder loads(host, wall.settings);
-  StepContact contact = {};
-  for (contact.mesh = 0; contact.mesh < 2; contact.mesh++)
-    loads.add(contact.mesh, {contact}, 2, {});
+  std::vector<StepContact> contacts(2);
+  contacts[1].mesh = 1;
+  for (const int mesh : {0, 1}) loads.add({mesh}, &contacts, 2);
   EXPECT_TRUE(loads.gathered(0).packed().empty());
-  EXPECT_EQ(loads.gathered(0).time(), 0);
-  EXPECT_EQ(loads.gathered(1).time(), 2);
+  EXPECT_EQ(loads.time(0), 0);
+  EXPECT_EQ(loads.gathered(1).packed().size(), 1u * FeatureRows<Load>::kPacked);
+  EXPECT_EQ(loads.time(1), 2);
+}
+
+TEST(WallFiles, keep_wear_and_forget_stress_when_an_average_begins)
+{
+  FakeHost host;
+  Wall wall;
+  wall.settings.wear = {WearModel::archard, 1};
+  LoadRecorder loads(host, wall.settings);
+  const StepContact contact = {feature_code(FeatureKind::face, 0), 0, 6, 2, 5, {-2, 0, -6}, {}};
+  const std::vector<StepContact> one = {contact};
+  loads.add({0}, &one, 1);
+  loads.begin_average(0);
+  EXPECT_EQ(loads.time(0), 0);
+  EXPECT_EQ(loads.worn(0), 5);
+  loads.add({0}, &one, 0.5);
+  loads.add({0}, nullptr, 0.25);    // a step that left nothing has its time
+  EXPECT_EQ(loads.time(0), 0.75);
+  const Load face = loads.gathered(0).of_faces(wall.mesh)[0];
+  EXPECT_EQ(face.normal, 3);
+  EXPECT_EQ(face.force, (Vec3{-1, 0, -3}));
+  EXPECT_EQ(face.worn, 7.5);
 }
 
 }    // namespace

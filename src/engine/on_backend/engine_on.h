@@ -8,7 +8,7 @@
 
 #include "base/input_error.h"
 #include "engine/broad_phase/broad_phase.h"
-#include "engine/loads/load_sums.h"
+#include "engine/loads/sums_on.h"
 #include "engine/nodes/moving_nodes.h"
 #include "engine/on_backend/mirror.h"
 #include "engine/on_backend/resident_springs.h"
@@ -168,7 +168,7 @@ class EngineOn : public WallEngine {
     nodes_.swap(other.nodes_);
     for (const auto &nodes : nodes_) nodes->set_engine(*this);
   }
-  LoadEngine *loads() override { return B::kOnCpu ? nullptr : &loads_; }
+  FeatureEngine<Load> *loads() override { return B::kOnCpu ? nullptr : &loads_; }
   EnergyEngine *energies() override { return B::kOnCpu ? nullptr : &energies_; }
   std::size_t bytes() const override
   {
@@ -203,14 +203,14 @@ class EngineOn : public WallEngine {
     const bool has_nodes = !nodes_.empty() && nodes_[mesh]->field().velocity;
     return has_nodes ? MeshFeaturesView() : broad_phase_.mesh(mesh).grid.view.wall;
   }
-  // Return the contacts on a mesh, and its records of energy without the sums of a mesh.
+  // Return the contacts on a mesh, and its records of energy.
   NodeContacts contacts_on(int mesh) const
   {
     return results_.node_contacts(springs_.contacts(), mesh, features(mesh), nullptr);
   }
-  LoadRecords records_on(int mesh) const
+  EnergyItems energy_items(int mesh, const ImpactBins &bins) const
   {
-    return results_.load_records(mesh, {features(mesh), 0, 0});
+    return results_.energy_items(mesh, bins);
   }
 
   void unlock_scratches()

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "engine/broad_phase/candidate_slots.h"
-#include "engine/loads/load_sums.h"
+#include "engine/loads/sums_on.h"
 #include "engine/nodes/node_forces.h"
 #include "engine/results/energy_sums.h"
 #include "engine/results/total_sums.h"
@@ -97,15 +97,14 @@ class ResultsOn : public StepResults {
     if (!B::kOnCpu || !has_records_) return {};
     return {records_.data(), *n_records_.data()};
   }
-  LoadRecords load_records(int mesh, const FeaturePlaces &places) const
+  EnergyItems energy_items(int mesh, const ImpactBins &bins) const
   {
-    LoadRecords of = {};
-    of.places = places;
-    of.records = records_.data();
-    of.room = has_records_ ? records_.size() : 0;
-    of.n_records = n_records_.data();
-    of.mesh = static_cast<std::uint32_t>(mesh);
-    return of;
+    return {records_.data(),
+            has_records_ ? records_.size() : 0,
+            n_records_.data(),
+            static_cast<std::uint32_t>(mesh),
+            bins,
+            {}};
   }
 
   // Makes a step write its results here. The pool of the step must be set before.

@@ -4,7 +4,7 @@
 // One mesh of a wall: its spec and grid, and where it is.
 #pragma once
 
-#include "engine/loads/load_engine.h"
+#include "engine/loads/feature_engine.h"
 #include "wall/move/mover.h"
 #include "wall/surface/mesh_surface.h"
 

@@ -93,7 +93,7 @@ struct StepLoad {
 
 struct LoadState {
   Real time = 0;             // of the average
-  std::vector<Real> rows;    // of all processes, as of MeshLoads::packed()
+  std::vector<Real> rows;    // of all processes, as of FeatureRows::packed()
 };
 
 struct MeshState {
@@ -107,7 +107,7 @@ struct MeshState {
   std::vector<MeanLoadState> mean;     // one, or none where there are no means
   std::vector<StepLoad> last;          // one; none: data without it
   std::vector<BookedEnergy> energy;    // one, or none if energy is not recorded
-  std::vector<Real> energy_places;     // of all processes, as of EnergyPlaces::packed()
+  std::vector<Real> energy_places;     // of all processes, as of FeatureRows::packed()
   std::vector<Real> impacts;    // as of ImpactSpectrum::packed(); none where they are not recorded
 };
 

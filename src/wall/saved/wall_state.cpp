@@ -3,9 +3,10 @@
 
 #include "wall/saved/wall_state.h"
 
-#include "output/energy_places.h"
+#include "engine/loads/load.h"
+#include "engine/loads/place_energy.h"
+#include "output/feature_rows.h"
 #include "output/impact_spectrum.h"
-#include "output/mesh_loads.h"
 
 #include <algorithm>
 
@@ -269,9 +270,9 @@ WallState WallState::from(const State &state)
     if (!s.vertices.empty() &&
         (s.vertices.size() != 3 * n || s.pending.size() != 4 * n || s.held.size() != n))
       throw StateError("the worn shape in the data of the wall is not that of the mesh's vertices");
-    if (m.loads.rows.size() % MeshLoads::kPacked != 0)
+    if (m.loads.rows.size() % FeatureRows<Load>::kPacked != 0)
       throw StateError("the loads in the data of the wall are no whole rows");
-    if (m.energy_places.size() % EnergyPlaces::kPacked != 0)
+    if (m.energy_places.size() % FeatureRows<PlaceEnergy>::kPacked != 0)
       throw StateError("the energies in the data of the wall are no whole rows");
     if (!m.impacts.empty() && m.impacts.size() != ImpactSpectrum::kPacked)
       throw StateError("the impacts in the data of the wall are no spectrum");

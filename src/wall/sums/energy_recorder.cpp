@@ -6,71 +6,68 @@
 namespace lsdcd {
 
 EnergyRecorder::EnergyRecorder(Host &host, const WallSpec &settings) :
-    host_(host), settings_(settings),
-    meshes_(settings.records_energy() ? settings.meshes.size() : 0)
+    MeshRecorder(host, settings.meshes.size()), settings_(settings),
+    spectra_(settings.records_energy() ? settings.meshes.size() : 0)
 {
-}
-
-// Returns the numbers with what the engine has added up since the last time.
-EnergyRecorder::OfMesh &EnergyRecorder::taken(int mesh)
-{
-  OfMesh &m = meshes_[static_cast<std::size_t>(mesh)];
-  if (!engine_) return m;
-  static_assert(EnergyEngine::kRow == EnergyPlaces::kPacked);
-  m.places.add_packed(engine_->take(mesh));
-  m.spectrum.add(engine_->take_bins(mesh));
-  return m;
 }
 
 void EnergyRecorder::set_engine(EnergyEngine *engine)
 {
-  for (int mesh = 0; mesh < static_cast<int>(meshes_.size()); mesh++) taken(mesh);
-  engine_ = engine;
+  for (std::size_t mesh = 0; mesh < spectra_.size(); mesh++) taken_spectrum(static_cast<int>(mesh));
+  MeshRecorder::set_engine(engine);
+  bins_ = engine;
 }
 
-void EnergyRecorder::add(int mesh, const EnergyRecords &records, const MeshFeaturesView &features)
+void EnergyRecorder::add(const RecordedMesh &mesh, const EnergyRecords *records,
+                         const EnergyRecords &of_coats, Real dt)
 {
-  OfMesh &m = meshes_[static_cast<std::size_t>(mesh)];
-  const auto number = static_cast<std::uint32_t>(mesh);
-  if (settings_.has_energy_places(settings_.meshes[static_cast<std::size_t>(mesh)]))
-    m.places.add(records, features, number);
-  if (settings_.impact_speed > 0) m.spectrum.add(records, number);
+  if (records && engine())
+    engine()->add(mesh.index, mesh.counts, dt);
+  else if (records)
+    add_here(mesh, *records);
+  if (host_.is_first()) add_here(mesh, of_coats);
+}
+
+void EnergyRecorder::add_here(const RecordedMesh &mesh, const EnergyRecords &records)
+{
+  const std::size_t k = static_cast<std::size_t>(mesh.index);
+  const auto number = static_cast<std::uint32_t>(mesh.index);
+  if (settings_.has_energy_places(settings_.meshes[k]))
+    rows(mesh.index).add(records.at, records.n, PlaceEnergyOf(), mesh.features, number);
+  if (settings_.impact_speed > 0) spectra_[k].add(records, number);
+}
+
+// Returns the spectrum with what the engine has added up since the last time.
+ImpactSpectrum &EnergyRecorder::taken_spectrum(int mesh)
+{
+  ImpactSpectrum &spectrum = spectra_[static_cast<std::size_t>(mesh)];
+  if (bins_) spectrum.add(bins_->take_bins(mesh));
+  return spectrum;
 }
 
 ImpactSpectrum EnergyRecorder::spectrum(int mesh)
 {
-  if (meshes_.empty()) return {};
-  std::vector<double> numbers = taken(mesh).spectrum.packed();
+  if (spectra_.empty()) return {};
+  std::vector<double> numbers = taken_spectrum(mesh).packed();
   host_.sum(numbers.data(), static_cast<int>(numbers.size()));
   ImpactSpectrum all;
   all.unpack(numbers);
   return all;
 }
 
-EnergyPlaces EnergyRecorder::gathered(int mesh)
-{
-  EnergyPlaces all;
-  if (meshes_.empty()) return all;
-  all.add_packed(host_.gather(taken(mesh).places.packed()));
-  return all;
-}
-
-void EnergyRecorder::restore(int mesh, const std::vector<double> &places,
+void EnergyRecorder::restore(int mesh, const std::vector<double> &packed,
                              const std::vector<double> &spectrum)
 {
-  if (meshes_.empty()) return;
-  OfMesh &m = taken(mesh);
-  m = OfMesh();
-  if (!host_.is_first()) return;
-  m.places.add_packed(places);
-  m.spectrum.unpack(spectrum);
+  MeshRecorder::restore(mesh, packed);
+  if (spectra_.empty()) return;
+  ImpactSpectrum &to = taken_spectrum(mesh);
+  to = ImpactSpectrum();
+  if (host_.is_first()) to.unpack(spectrum);
 }
 
 std::size_t EnergyRecorder::bytes() const
 {
-  std::size_t bytes = 0;
-  for (const OfMesh &m : meshes_) bytes += m.places.bytes() + kImpactBins * sizeof(ImpactBin);
-  return bytes;
+  return MeshRecorder::bytes() + spectra_.size() * kImpactBins * sizeof(ImpactBin);
 }
 
 }    // namespace lsdcd

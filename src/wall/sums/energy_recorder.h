@@ -6,52 +6,41 @@
 #pragma once
 
 #include "engine/loads/energy_engine.h"
-#include "host/host.h"
-#include "output/energy_places.h"
 #include "output/impact_spectrum.h"
 #include "wall/spec/wall_spec.h"
+#include "wall/sums/mesh_recorder.h"
 
-#include <cstddef>
 #include <vector>
 
 namespace lsdcd {
 
-// Meshes are counted from 0.
-class EnergyRecorder {
+class EnergyRecorder : public MeshRecorder<PlaceEnergy> {
  public:
   // Both must outlive it.
   EnergyRecorder(Host &host, const WallSpec &settings);
 
-  // Takes what the last engine has added up, and from now on that of this one; null: it adds up nothing. The last one must still be there.
   void set_engine(EnergyEngine *engine);
 
-  // Adds a step: the records of this process on a mesh, of an engine that adds up nothing, or `counts` for one that does. `features`:
-  // of the mesh with its periodic images; empty where there are no records.
-  void add(int mesh, const EnergyRecords &records, const MeshFeaturesView &features);
-  void add(int mesh, const FeatureCounts &counts) { engine_->add(mesh, counts); }
+  // Adds a step of duration `dt` (time). `records`: of all meshes on this process, which are read where no engine adds them up; null: the
+  // step left nothing. `of_coats`: the same on all processes.
+  void add(const RecordedMesh &mesh, const EnergyRecords *records, const EnergyRecords &of_coats,
+           Real dt);
 
   // Returns the spectrum of all processes. Collective.
   ImpactSpectrum spectrum(int mesh);
-  // Returns what becomes of energy on all processes, on the first one. Collective.
-  EnergyPlaces gathered(int mesh);
 
-  // Restores data of a saved state, before the first step, the same on all processes: EnergyPlaces::packed() and
-  // ImpactSpectrum::packed(). The first one keeps them.
-  void restore(int mesh, const std::vector<double> &places, const std::vector<double> &spectrum);
+  // Restores data of a saved state, as MeshRecorder does, and that of ImpactSpectrum::packed().
+  void restore(int mesh, const std::vector<double> &packed, const std::vector<double> &spectrum);
 
   std::size_t bytes() const;    // of this process
 
  private:
-  struct OfMesh {
-    EnergyPlaces places;
-    ImpactSpectrum spectrum;
-  };
-  OfMesh &taken(int mesh);
+  void add_here(const RecordedMesh &mesh, const EnergyRecords &records);
+  ImpactSpectrum &taken_spectrum(int mesh);
 
-  Host &host_;
   const WallSpec &settings_;
-  EnergyEngine *engine_ = nullptr;
-  std::vector<OfMesh> meshes_;    // of this process; none where nothing is recorded
+  EnergyEngine *bins_ = nullptr;           // the engine, for its bins
+  std::vector<ImpactSpectrum> spectra_;    // of this process; none where nothing is recorded
 };
 
 }    // namespace lsdcd

@@ -6,75 +6,61 @@
 namespace lsdcd {
 
 LoadRecorder::LoadRecorder(Host &host, const WallSpec &settings) :
-    host_(host), settings_(settings), loads_(settings.meshes.size())
+    MeshRecorder(host, settings.meshes.size()), settings_(settings),
+    times_(settings.meshes.size(), 0)
 {
-}
-
-void LoadRecorder::set_engine(LoadEngine *engine)
-{
-  for (int mesh = 0; mesh < static_cast<int>(loads_.size()); mesh++) taken(mesh);
-  engine_ = engine;
 }
 
 // Volume per work.
 Real LoadRecorder::wear_per_work(int mesh) const
 {
-  return settings_.meshes[mesh].wear_factor * settings_.wear.per_work;
+  return settings_.meshes[static_cast<std::size_t>(mesh)].wear_factor * settings_.wear.per_work;
 }
 
-// Returns the loads with what the engine has added up since the last time.
-MeshLoads &LoadRecorder::taken(int mesh)
+// Engines add up the work of wear.
+Load LoadRecorder::from_engine(int mesh, const Load &load) const
 {
-  MeshLoads &loads = loads_[mesh];
-  if (!engine_) return loads;
-  constexpr int kRow = LoadEngine::kRow, kWork = 4;
-  static_assert(kRow == MeshLoads::kPacked);
-  std::vector<Real> rows = engine_->take(mesh);
-  for (std::size_t at = kWork; at < rows.size(); at += kRow) rows[at] *= wear_per_work(mesh);
-  loads.add_packed(rows);
-  return loads;
+  Load here = load;
+  here.worn *= wear_per_work(mesh);
+  return here;
 }
 
-void LoadRecorder::begin_average(int mesh)
+void LoadRecorder::add(const RecordedMesh &mesh, const std::vector<StepContact> *contacts, Real dt)
 {
-  taken(mesh).begin_average();
-}
-
-void LoadRecorder::add(int mesh, const std::vector<StepContact> &contacts, Real dt,
-                       const MeshFeaturesView &features)
-{
-  if (settings_.has_loads(settings_.meshes[mesh]))
-    loads_[mesh].add(contacts.data(), static_cast<int>(contacts.size()), dt, wear_per_work(mesh),
-                     features, mesh);
+  const std::size_t k = static_cast<std::size_t>(mesh.index);
+  if (!settings_.has_loads(settings_.meshes[k])) return;
+  times_[k] += dt;
+  if (!contacts) return;
+  if (engine())
+    engine()->add(mesh.index, mesh.counts, dt);
+  else
+    rows(mesh.index)
+        .add(contacts->data(), static_cast<int>(contacts->size()),
+             LoadOf{dt, wear_per_work(mesh.index)}, mesh.features,
+             static_cast<std::uint32_t>(mesh.index));
 }
 
 Real LoadRecorder::worn(int mesh)
 {
-  Real worn = taken(mesh).worn();
+  Real worn = taken(mesh).total().worn;
   host_.sum(&worn, 1);
   return worn;
 }
 
-MeshLoads LoadRecorder::gathered(int mesh)
+void LoadRecorder::begin_average(int mesh)
 {
-  MeshLoads all;
-  all.add_packed(host_.gather(taken(mesh).packed()));
-  all.set_time(loads_[mesh].time());
-  return all;
+  taken(mesh).replace([](const Load &load) {
+    Load begun;
+    begun.worn = load.worn;
+    return begun;
+  });
+  times_[static_cast<std::size_t>(mesh)] = 0;
 }
 
-void LoadRecorder::restore(int mesh, Real time, const std::vector<double> &rows)
+void LoadRecorder::restore(int mesh, Real time, const std::vector<double> &packed)
 {
-  taken(mesh) = MeshLoads();
-  loads_[mesh].set_time(time);
-  if (host_.is_first()) loads_[mesh].add_packed(rows);
-}
-
-std::size_t LoadRecorder::bytes() const
-{
-  std::size_t bytes = 0;
-  for (const MeshLoads &l : loads_) bytes += l.bytes();
-  return bytes;
+  MeshRecorder::restore(mesh, packed);
+  times_[static_cast<std::size_t>(mesh)] = time;
 }
 
 }    // namespace lsdcd

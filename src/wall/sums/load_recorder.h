@@ -4,53 +4,40 @@
 // Loads and wear of a wall's meshes, added up over the steps on all processes.
 #pragma once
 
-#include "engine/loads/load_engine.h"
-#include "host/host.h"
-#include "output/mesh_loads.h"
+#include "engine/loads/load.h"
 #include "wall/spec/wall_spec.h"
+#include "wall/sums/mesh_recorder.h"
 
-#include <cstddef>
 #include <vector>
 
 namespace lsdcd {
 
-// Meshes are counted from 0. One without wear and without mesh_fields has no loads.
-class LoadRecorder {
+// A mesh without wear and without mesh_fields has no loads.
+class LoadRecorder : public MeshRecorder<Load> {
  public:
   // Both must outlive it. settings.wear.per_work is volume per work in the host's units.
   LoadRecorder(Host &host, const WallSpec &settings);
 
-  // Takes what the last engine has added up, and from now on that of this one; null: it adds up nothing. The last one must still be there.
-  void set_engine(LoadEngine *engine);
+  // Adds a step of duration `dt` (time). `contacts`: of all meshes on this process, which are read where no engine adds up loads; null:
+  // the step left nothing.
+  void add(const RecordedMesh &mesh, const std::vector<StepContact> *contacts, Real dt);
 
-  // A step of duration `dt` (time): what contacts of this process did to all meshes. `features`: of
-  // the mesh with its periodic images; empty where there are no contacts.
-  void add(int mesh, const std::vector<StepContact> &contacts, Real dt,
-           const MeshFeaturesView &features);
-
-  // Volume (length^3) worn off the mesh so far, on all processes. Collective.
+  // Returns the time of the average.
+  Real time(int mesh) const { return times_[static_cast<std::size_t>(mesh)]; }
+  // Returns the volume (length^3) worn off the mesh so far, on all processes. Collective.
   Real worn(int mesh);
-
-  // Loads of all processes, on the first one; elsewhere only their time. Collective.
-  MeshLoads gathered(int mesh);
 
   // The average begins again; what has worn off stays.
   void begin_average(int mesh);
 
-  // Restores data of a saved state, before the first step: the time of the average and rows as of
-  // MeshLoads::packed(), the same on all processes. The first one keeps the rows.
-  void restore(int mesh, Real time, const std::vector<double> &rows);
-
-  std::size_t bytes() const;    // of this process
+  void restore(int mesh, Real time, const std::vector<double> &packed);
 
  private:
   Real wear_per_work(int mesh) const;
-  MeshLoads &taken(int mesh);
+  Load from_engine(int mesh, const Load &load) const override;
 
-  Host &host_;
   const WallSpec &settings_;
-  LoadEngine *engine_ = nullptr;
-  std::vector<MeshLoads> loads_;    // of this process; one per mesh
+  std::vector<Real> times_;    // of each mesh
 };
 
 }    // namespace lsdcd

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "output/by_feature.h"
+#include "output/feature_rows.h"
 
 #include <cstdint>
 
