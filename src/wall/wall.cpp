@@ -522,9 +522,9 @@ void Wall::record(const StepResults *left)
   const Real dt = input_.step.dt;
   const EnergyRecords records = left ? left->energy_records() : EnergyRecords();
   const std::vector<EnergyRecord> &of_coats = coats_.energy().records;
-  const bool has_any = left || !of_coats.empty();
+  const bool has_contacts = left || !of_coats.empty();
   const auto part = [&](const MeshPart &m) -> RecordedMesh {
-    return {m.index, m.feature_counts(), has_any ? m.records() : MeshFeaturesView()};
+    return {m.index, m.feature_counts(), has_contacts ? m.records() : MeshFeaturesView()};
   };
   for (const MeshPart *m : recorded_) loads_.add(part(*m), left ? &left->contacts() : nullptr, dt);
   for (const MeshPart *m : with_energy_records_)
