@@ -645,8 +645,9 @@ typedef struct lsdcd_wall_totals {
 LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, const double *about,
                                     lsdcd_wall_totals *totals);
 /* Numbers of a mesh after the last step by their names, which are the same in LAMMPS (doc/wall_output.rst): `names` has n of them, apart
- * by blanks, as "force_z power body_velocity_x"; -1: of all meshes. Numbers of a part that the wall does not have are 0. Torques are
- * about `torque_about` of each mesh. LSDCD_ERROR_ARGUMENT: there is no such number, or `names` has not n. Own. */
+ * by blanks, as "force_z power body_velocity_x"; -1: of all meshes. Torques are about `torque_about` of each mesh. A mesh without
+ * a part that another one has, as a servo, has 0 there. LSDCD_ERROR_ARGUMENT: the wall has no such number, with the keyword that it needs,
+ * or `names` has not n. Own. */
 LSDCD_API int lsdcd_wall_get_outputs(lsdcd_wall *wall, int mesh, const char *names, double *to,
                                      size_t n);
 /* Number k, from 0, of all that a wall may have: its name, the kind of its unit, and what it is (that of several

@@ -165,7 +165,7 @@ int lsdcd_wall_get_outputs(lsdcd_wall *wall, int mesh, const char *names, double
     std::vector<Place> places;
     for (const std::string &name : all) {
       Place place;
-      place.output = find_output(name, place.d);
+      place.output = find_output(wall->in->spec(), name, place.d);
       if (!place.output)
         throw ApiError(LSDCD_ERROR_ARGUMENT, "names: " + why_no_output(wall->in->spec(), name));
       places.push_back(place);

@@ -538,12 +538,28 @@ Real output_of(Wall &wall, int mesh, int column)
   return output_value(wall, mesh, *output, column);
 }
 
-const WallOutput *find_output(const std::string &name, int &d)
+namespace {
+
+// Does a wall have the numbers of a row?
+bool has_row(const WallSpec &wall, const WallOutput &output)
+{
+  return output.part == OutputPart::scalar || has(wall, output.part);
+}
+
+const WallOutput *row_of(const std::string &name, int &d)
 {
   for (const WallOutput &output : wall_outputs())
     for (d = 0; d < output.row.n; d++)
       if (output_name(output.row, d) == name) return &output;
   return nullptr;
+}
+
+}    // namespace
+
+const WallOutput *find_output(const WallSpec &wall, const std::string &name, int &d)
+{
+  const WallOutput *const output = row_of(name, d);
+  return output && has_row(wall, *output) ? output : nullptr;
 }
 
 std::vector<NamedElement> named_outputs(const WallSpec &wall)
@@ -564,7 +580,7 @@ std::string why_no_output(const WallSpec &wall, const std::string &name)
 {
   int d;
   const std::string none = "there is no number '" + name + "': ";
-  if (const WallOutput *const output = find_output(name, d))
+  if (const WallOutput *const output = row_of(name, d))
     return none + "the wall needs " + keyword_of(output->part) + " for it";
   std::vector<std::string> names;
   for (const NamedElement &one : named_outputs(wall)) names.push_back(one.name);

@@ -50,8 +50,8 @@ int n_outputs(const WallSpec &wall);
 // that the wall does not have. Collective.
 Real output_value(Wall &wall, int mesh, const WallOutput &output, int d);
 Real output_of(Wall &wall, int mesh, int column);
-// Returns the row in which a name stands, and in d the number's place there. Null: no number is called so.
-const WallOutput *find_output(const std::string &name, int &d);
+// Returns the row in which a name stands, and in d the number's place there. Null: the wall has no number of this name (why_no_output()).
+const WallOutput *find_output(const WallSpec &wall, const std::string &name, int &d);
 // Returns the numbers that this wall has, in the order of their columns, with the scalar as column -1.
 std::vector<NamedElement> named_outputs(const WallSpec &wall);
 // Returns why a wall has no number of this name: the keyword that it needs, or that there is none, with the nearest name.

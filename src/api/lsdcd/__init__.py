@@ -936,8 +936,8 @@ class Wall(_Owner):
 
     def outputs(self, names: str | Iterable[OutputName], mesh: int | str | None = None) -> dict[str, float]:
         """Numbers of a mesh, from 0, or of all, after the last step by names, which are those of LAMMPS's scripts and keys of OUTPUTS: a list,
-        of which type checkers know the names, or a text with blanks, "force_z power". Numbers of a part that the wall does not have are 0.
-        Raises Error for other names."""
+        of which type checkers know the names, or a text with blanks, "force_z power". Raises Error for a name that this wall does not have, with
+        the keyword that it needs; a mesh without a part that another one has, as a servo, has 0 there."""
         wanted = names.split() if isinstance(names, str) else list(names)
         numbers = np.empty(len(wanted))
         self._do(_lib.lsdcd_wall_get_outputs, self._handle, self._mesh_or_all(mesh), _c_text(" ".join(wanted), "names"),
