@@ -7,7 +7,6 @@
 // that touch already, and those of impacts before it. With each part goes its own energy, m (v.n)^2/2, so that all together have at
 // most m v^2/2. Overlaps are treated in the same way: the corner rule hides a contact behind those that push the sphere out of its
 // overlap, so that the contact begins when its overlap is larger than that.
-// where it overlaps by more than that.
 #pragma once
 
 #include "base/vec3.h"
