@@ -6,6 +6,7 @@
 // each step.
 #include "bench.h"
 
+#include "contact/spring.h"
 #include "engine/engine.h"
 #include "grid/flat_grid.h"
 #include "mesh/welded_mesh.h"
