@@ -40,7 +40,7 @@ v, omega, force, torque = np.zeros((4, 1, 3))
 wall.step(x, v, omega, radius, mass, force, torque, 1e-3, setup=True)
 pushed: float = wall.totals("floor").force[2] + wall.outputs("force_z")["force_z"]
 names: list[OutputName] = ["force_z", "power"]
-told: dict[str, float] = wall.outputs(names, "floor") | wall.outputs([name for name in lsdcd.OUTPUTS if "force" in name], mesh=0)
+told: dict[str, float] = wall.outputs(names, "floor") | wall.outputs([name for name in lsdcd.OUTPUTS if name.startswith("force")], mesh=0)
 
 # The tables.
 unit, text = lsdcd.OUTPUTS["force_z"]
