@@ -315,8 +315,14 @@ def test_inputs_of_changes():
         wall.step(*arrays, DT)
     wall.change("mesh lid servo none")
     wall.step(*arrays, DT)
-    with pytest.raises(lsdcd.Error, match=r"there is no number 'servo_push': the wall needs \*servo\* for it"):
-        wall.outputs("servo_push", "lid")
+    fact("the servo is gone", wall.outputs("servo_push", "lid")["servo_push"] == 0)
+
+
+def test_numbers_that_a_wall_does_not_have():
+    wall = lsdcd.Wall(f"{STYLE} mesh $floor", floor=MESH)
+    for name, keyword in (("servo_push", "servo"), ("dissipated_slider", "energy"), ("impacts", "impacts")):
+        with pytest.raises(lsdcd.Error, match=rf"there is no number '{name}': the wall needs \*{keyword}\* for it"):
+            wall.outputs(name)
 
 
 def forces_of_one_step(words):
