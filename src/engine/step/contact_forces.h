@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 namespace lsdcd {
 
@@ -289,182 +290,279 @@ LSDCD_FN Real mass_at(const ForceSettings &settings, Real mass, const Vec3 &clos
   return mass;
 }
 
-// The following overloads are those parts of add_contacts() that differ between spheres and other grains (shape_step.h). For a sphere the
-// arm of friction is along the normal, and the normal force causes no torque.
-template <class Law, class Springs>
-LSDCD_FN Transfer transfer_to(const GridView &grid, const Law &, const ContactsView &set, int i,
-                              const SphereStateWith<Springs> &s)
-{
-  return transfer_of(grid.wall, set, i, s.springs, s.n_springs);
-}
-// Return the radius by which overlaps are reported, and the radius that a law reads for contact i.
-template <class Springs>
-LSDCD_FN Real radius_of(const ContactsView &, const SphereStateWith<Springs> &s)
-{
-  return s.radius;
-}
-template <class Law, class Springs>
-LSDCD_FN Real radius_of(const Law &, const ContactsView &, int, const SphereStateWith<Springs> &s)
-{
-  return s.radius;
-}
-// Sets the velocities at a contact from those of the centre, away from the wall and along it. Returns the arm of friction.
-template <class Law, class Springs>
-LSDCD_FN Real add_spin(const Law &law, const ContactsView &, int, const SphereStateWith<Springs> &s,
-                       Real away, const Vec3 &along, Contact &c)
-{
-  Real arm = s.radius;
-  if constexpr (Law::kMidpoint)
-    if (law.is_at_midpoint()) arm = s.radius - c.overlap / 2;
-  c.v_normal = away;
-  c.v_tangent = along - arm * cross(s.omega, c.normal);
-  return arm;
-}
-LSDCD_FN void add_torque(Real arm, const Vec3 &n, const Vec3 &, const Vec3 &tangential,
-                         Vec3 &torque)
-{
-  torque -= arm * cross(n, tangential);
-}
+// The contacts of a sphere with one mesh, with the answers to add_contacts() that differ between spheres and other grains
+// (GrainContactsInStep, shape_step.h). The arm of friction at a sphere is along the normal, and the normal force causes no torque.
+struct SphereContacts : ContactsView {
+  using Arm = Real;    // from the centre to where friction acts; length
 
-struct BookedLengths {
-  Real distance, arm;    // as in BookedContact
+  template <class Law, class Springs>
+  LSDCD_FN Transfer transfer(const GridView &grid, const Law &, int i,
+                             const SphereStateWith<Springs> &s) const
+  {
+    return transfer_of(grid.wall, view(), i, s.springs, s.n_springs);
+  }
+  // Returns the radius by which overlaps are reported.
+  template <class Springs>
+  LSDCD_FN Real reported_radius(const SphereStateWith<Springs> &s) const
+  {
+    return s.radius;
+  }
+  // Returns the radius that a law reads for contact i.
+  template <class Law, class Springs>
+  LSDCD_FN Real law_radius(const Law &, int, const SphereStateWith<Springs> &s) const
+  {
+    return s.radius;
+  }
+  // Sets the velocities at contact i from those of the centre, away from the wall and along it. Returns the arm of friction.
+  template <class Law, class Springs>
+  LSDCD_FN Arm add_spin(const Law &law, int, const SphereStateWith<Springs> &s, Real away,
+                        const Vec3 &along, Contact &c) const
+  {
+    Real arm = s.radius;
+    if constexpr (Law::kMidpoint)
+      if (law.is_at_midpoint()) arm = s.radius - c.overlap / 2;
+    c.v_normal = away;
+    c.v_tangent = along - arm * cross(s.omega, c.normal);
+    return arm;
+  }
+  LSDCD_FN static void add_torque(Arm arm, const Vec3 &n, const Vec3 &, const Vec3 &tangential,
+                                  Vec3 &torque)
+  {
+    torque -= arm * cross(n, tangential);
+  }
+  LSDCD_FN Real booked_distance(int i, const Contact &) const { return distance[i]; }
+  LSDCD_FN static Real booked_arm(Arm arm, const Contact &) { return arm; }
+  template <class Law, class Springs>
+  LSDCD_FN void book(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wall,
+                     const ForceSettings &settings, const SphereStateWith<Springs> &s, int,
+                     const BookedContact<Law> &booked, const Transfer &in, EnergyMarks &marks,
+                     Real *to) const
+  {
+    book.add(law, wall, settings, s, booked, in, marks, to);
+  }
+
+ private:
+  LSDCD_FN const ContactsView &view() const { return *this; }
 };
-LSDCD_FN BookedLengths booked_lengths(const ContactsView &set, int i, Real arm, const Contact &)
+LSDCD_FN SphereContacts contacts_in_step(const ContactsView &set)
 {
-  return {set.distance[i], arm};
-}
-template <class Law, class Springs>
-LSDCD_FN void book_contact(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wall,
-                           const ForceSettings &settings, const SphereStateWith<Springs> &s,
-                           const ContactsView &, int, const BookedContact<Law> &booked,
-                           const Transfer &in, EnergyMarks &marks, Real *to)
-{
-  book.add(law, wall, settings, s, booked, in, marks, to);
+  return {set};
 }
 
-// Evaluates the law for each contact and adds its force, torque and energy to `out`. `weights` null: the sphere has one contact.
+// A contact before its law is evaluated: where it is and how it moves.
+template <class Arm>
+struct ContactMotion {
+  Contact c;           // what the law reads
+  Vec3 closest;        // point of the wall
+  NodeShares nodes;    // in the closest point; set only if its nodes move
+  Vec3 v;              // velocity of the centre less that of the wall
+  Real away;           // its part along the normal, > 0 away from the wall
+  Vec3 along;    // its part across the normal, less the velocity of a surface that moves by itself
+  Arm arm;       // of friction
+};
+
+// Sets contact i, whose overlap is given, as the law reads it. A compiler keeps in registers what is set in place, and not what is copied.
+template <class Law, class Springs, class Set>
+LSDCD_FN void set_motion(const GridView &grid, const Law &law, const ForceSettings &settings,
+                         const SphereStateWith<Springs> &s, const Set &set, int i, Real overlap,
+                         ContactMotion<typename Set::Arm> &at)
+{
+  const Vec3 n = set.normal[i];
+  at.closest = set.foot_of(i, s.x, n);
+  at.nodes = {};
+  at.v = velocity_against<Law>(grid.wall, settings, s, set.feature[i], at.closest, at.nodes);
+  at.away = dot(at.v, n);
+  Contact &c = at.c;
+  c.normal = n;
+  c.overlap = overlap;
+  c.radius = set.law_radius(law, i, s);
+  c.mass = mass_at<Law>(settings, s.mass, at.closest, n);
+  at.along = at.v - at.away * n;
+  if constexpr (Law::kPosed)
+    if (settings.surface_moves) at.along -= settings.surface.along(at.closest, n, settings.back);
+  at.arm = set.add_spin(law, i, s, at.away, at.along, c);
+  c.dt = settings.dt;
+  c.update = settings.update;
+  if constexpr (Set::kHasArms) {
+    c.omega = {0, 0, 0};    // nothing rolls or twists
+  } else if constexpr (Law::kContactTorque) {
+    // Rolling and twisting are relative to a wall that turns.
+    Vec3 omega = s.omega;
+    if constexpr (Law::kPosed) omega -= settings.wall_angular + settings.surface.angular;
+    if constexpr (Law::kNodes)
+      if (settings.nodes.velocity) omega -= field_at(at.nodes, settings.nodes.spin);
+    c.omega = omega;
+  }
+  if constexpr (Law::kHeat)
+    if (law.has_heat()) c.temperature_difference = settings.wall_temperature - s.temperature;
+}
+
+// A contact after its law was evaluated.
+template <class Law, class Set>
+struct EvaluatedContact {
+  using Memory = ContactMemory<Law::kExtra>;
+  using Force = decltype(std::declval<const Law &>().evaluate(std::declval<const Contact &>(),
+                                                              std::declval<Memory &>()));
+  int i;    // in the set
+  FeatureCode feature;
+  std::uint32_t mesh;    // number in the wall
+  Real weight;
+  ContactMotion<typename Set::Arm> motion;
+  Transfer in;              // which contact of the last step it continues
+  Memory before, memory;    // at the start and at the end of the step
+  Force f;
+};
+
+// Evaluates the law for contact i, with what it takes over from the last step.
+template <class Law, class Springs, class Set>
+LSDCD_FN void evaluate(const GridView &grid, const Law &law, const ForceSettings &settings,
+                       const SphereStateWith<Springs> &s, const Set &set, int i, Real overlap,
+                       Real weight, EvaluatedContact<Law, Set> &at)
+{
+  at.i = i;
+  at.feature = set.feature[i];
+  at.mesh = Law::kPosed ? settings.mesh : 0;
+  at.weight = weight;
+  set_motion(grid, law, settings, s, set, i, overlap, at.motion);
+  at.in = {-1, 0};
+  if constexpr (Law::kHistory) at.in = set.transfer(grid, law, i, s);
+  at.memory = memory_from_last_step(law, settings, set, i, s, at.in);
+  if constexpr (Set::kHasArms && Law::kHistory) at.memory.put(0, at.motion.arm->arm);
+  at.before = at.memory;
+  at.f = law.evaluate(at.motion.c, at.memory);
+  if constexpr (Law::kSetsUp)
+    if (!settings.update) at.memory = at.before;
+}
+
+// Adds a contact to the energy balance of its mesh, and what its friction heats. `place`: where it is among the contacts that are stored.
+template <class Law, class Springs, class Set, class Sink>
+LSDCD_FN void book_contact(const GridView &grid, const Law &law, const ForceSettings &settings,
+                           const SphereStateWith<Springs> &s, const Set &set,
+                           const EvaluatedContact<Law, Set> &at, const Sink &sink, int place)
+{
+  const Contact &c = at.motion.c;
+  [[maybe_unused]] const Real slid_before = sink.book->rows[EnergyRow::slider];
+  const BookedContact<Law> booked = {c,
+                                     at.f,
+                                     law.parts(c, at.before, at.memory, at.f),
+                                     at.weight,
+                                     set.booked_distance(at.i, c),
+                                     set.booked_arm(at.motion.arm, c),
+                                     at.feature,
+                                     at.motion.nodes};
+  set.book(*sink.book, law, grid.wall, settings, s, at.i, booked, at.in, *sink.marks,
+           sink.extra + place * n_stored(law));
+  if constexpr (Law::kHeat)
+    if (law.has_heat() && settings.update && sink.friction_heat > 0)
+      *sink.heat += sink.friction_heat * (sink.book->rows[EnergyRow::slider] - slid_before) / c.dt;
+}
+
+// Rows of the energy balance before a contact was booked, in laws that write what each contact loses.
+template <class Law>
+using RowsBefore = std::conditional_t<Law::kLosses, EnergyRows, Real>;
+
+// Writes the record of a contact: what it has lost since the rows of its mesh were `before`, and its impact if it begins in this step.
+// `is_alone`: the sphere has no other contact. `place`: as in book_contact().
+template <class Law, class Springs, class Set, class Sink>
+LSDCD_FN void record_contact([[maybe_unused]] const Law &law, const ForceSettings &settings,
+                             const SphereStateWith<Springs> &s,
+                             const EvaluatedContact<Law, Set> &at,
+                             [[maybe_unused]] const RowsBefore<Law> &before, bool is_alone,
+                             const Sink &sink, [[maybe_unused]] int place)
+{
+  EnergyRecord record = {at.feature, at.mesh, 0, 0, 0};
+  if constexpr (Law::kLosses) {
+    record.dissipated = dissipated(sink.book->rows) - dissipated(before);
+    if (law.keeps_losses)
+      sink.book->keep_losses(law, settings, s, at.in, before, sink.extra, place);
+  }
+  // Grains that are no spheres are left out, because walls have no impacts with them.
+  if constexpr (!Set::kHasArms)
+    if (settings.update && sink.records.impact_speed > 0 &&
+        !stays(s.springs, at.in, at.feature, at.mesh)) {
+      const Contact &c = at.motion.c;
+      // If there are several contacts, impacts follow when all contacts are known (impacts.h).
+      if (is_alone)
+        add_impact(taken_by_last_contact(at.in, s.springs, at.motion.v, c.overlap),
+                   {c.normal, -at.motion.away, c.overlap}, c.mass, c.dt, sink.records, record);
+      else
+        *sink.begins = true;
+    }
+  sink.records.put(record);
+}
+
+// Stores a contact at a place among those of its sphere: its springs for the next step, and its force and wear for whoever reads them.
+template <class Law, class Springs, class Set, class Sink>
+LSDCD_FN void store_contact(const Law &law, const ForceSettings &settings,
+                            const SphereStateWith<Springs> &s, const EvaluatedContact<Law, Set> &at,
+                            const Vec3 &tangential, const Sink &sink, int place)
+{
+  [[maybe_unused]] const ContactMotion<typename Set::Arm> &motion = at.motion;
+  [[maybe_unused]] const Vec3 &n = motion.c.normal;
+  if constexpr (Law::kHistory) {
+    sink.springs[place] = {at.memory.shear, n, at.feature, at.mesh};
+    if constexpr (Law::kExtra > 0) store_extra(law, at.memory, sink.extra + place * n_stored(law));
+  }
+  if constexpr (Law::kKeepsContacts) {
+    const Real normal = at.weight * at.f.normal, pressing = normal > 0 ? normal : Real(0);
+    StepContact &kept = sink.contacts[place];
+    kept = {at.feature,          at.mesh, normal, norm(tangential), 0, -normal * n - tangential,
+            s.x - motion.closest};
+    if (settings.wear != WearModel::none)
+      kept.wear_power = settings.wear == WearModel::finnie
+                            ? finnie_power(pressing, motion.away, norm(motion.along))
+                            : pressing * slip_speed(law, motion.c, at.before, at.memory);
+  }
+}
+
+// Adds a contact to the force, torque and energy of its sphere.
+template <class Law, class Set, class Sink>
+LSDCD_FN void add_to_result(const Law &law, const ForceSettings &settings,
+                            const EvaluatedContact<Law, Set> &at, const Vec3 &tangential,
+                            const Sink &sink, SphereResult &out)
+{
+  const Vec3 &n = at.motion.c.normal;
+  const Vec3 force = (at.weight * at.f.normal) * n + tangential;
+  out.force += force;
+  Set::add_torque(at.motion.arm, n, force, tangential, out.torque);
+  out.energy += at.weight * at.f.energy;
+  if constexpr (Law::kContactTorque) out.torque += at.weight * at.f.contact_torque;
+  if constexpr (Law::kHeat)
+    if (law.has_heat()) *sink.heat += at.weight * at.f.heat;
+  if (settings.with_point) {
+    const Real w = at.weight * fabs(at.f.normal);
+    out.weight += w;
+    out.weighted_point += w * at.motion.closest;
+  }
+}
+
+// Evaluates the law for each contact of a sphere with one mesh and adds its force, torque and energy to `out`. `weights` null: the sphere
+// has one contact.
 template <class Law, class Springs, class Set, class Sink>
 LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
                            const SphereStateWith<Springs> &s, const Set &set, const Real *weights,
                            const Sink &sink, SphereResult &out)
 {
-  [[maybe_unused]] const std::uint32_t mesh = Law::kPosed ? settings.mesh : 0;
   for (int i = 0; i < set.n; i++) {
     const Real weight = weights ? weights[i] : 1;
-    const Real overlap = set.overlap_of(i, s.radius), ratio = overlap / radius_of(set, s);
+    const Real overlap = set.overlap_of(i, s.radius), ratio = overlap / set.reported_radius(s);
     if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
     // A contact that bears nothing, such as one on the far face of a thin plate, is not counted. It has no spring yet, either: a spring
     // cut to the friction limit of its own slight overlap would be lost when the contact takes over the force.
     if (!(weight > 0)) continue;
 
-    const Vec3 n = set.normal[i];
-    const Vec3 closest = set.foot_of(i, s.x, n);
-    NodeShares nodes = {};
-    const Vec3 v = velocity_against<Law>(grid.wall, settings, s, set.feature[i], closest, nodes);
-    const Real away = dot(v, n);    // of the centre
-    Contact c;
-    c.normal = n;
-    c.overlap = overlap;
-    c.radius = radius_of(law, set, i, s);
-    c.mass = mass_at<Law>(settings, s.mass, closest, n);
-    Vec3 along = v - away * n;
-    if constexpr (Law::kPosed)
-      if (settings.surface_moves) along -= settings.surface.along(closest, n, settings.back);
-    const auto &arm = add_spin(law, set, i, s, away, along, c);    // of friction
-    c.dt = settings.dt;
-    c.update = settings.update;
-    if constexpr (Set::kHasArms) {
-      c.omega = {0, 0, 0};    // nothing rolls or twists
-    } else if constexpr (Law::kContactTorque) {
-      // Rolling and twisting are relative to a wall that turns.
-      Vec3 omega = s.omega;
-      if constexpr (Law::kPosed) omega -= settings.wall_angular + settings.surface.angular;
-      if constexpr (Law::kNodes)
-        if (settings.nodes.velocity) omega -= field_at(nodes, settings.nodes.spin);
-      c.omega = omega;
-    }
-    if constexpr (Law::kHeat)
-      if (law.has_heat()) c.temperature_difference = settings.wall_temperature - s.temperature;
-
-    Transfer in = {-1, 0};
-    if constexpr (Law::kHistory) in = transfer_to(grid, law, set, i, s);
-    auto memory = memory_from_last_step(law, settings, set, i, s, in);
-    if constexpr (Set::kHasArms && Law::kHistory) memory.put(0, arm.arm);
-    [[maybe_unused]] const auto begun = memory;
-    const auto f = law.evaluate(c, memory);
-    if constexpr (Law::kSetsUp)
-      if (!settings.update) memory = begun;
-    [[maybe_unused]] std::conditional_t<Law::kLosses, EnergyRows, Real> before = {};
-    [[maybe_unused]] Real slid_before = 0;
-    if constexpr (Law::kEnergy) {
-      slid_before = sink.book->rows[EnergyRow::slider];
-      if constexpr (Law::kLosses) before = sink.book->rows;
-      const BookedLengths lengths = booked_lengths(set, i, arm, c);
-      const BookedContact<Law> booked = {c,
-                                         f,
-                                         law.parts(c, begun, memory, f),
-                                         weight,
-                                         lengths.distance,
-                                         lengths.arm,
-                                         set.feature[i],
-                                         nodes};
-      book_contact(*sink.book, law, grid.wall, settings, s, set, i, booked, in, *sink.marks,
-                   sink.extra + out.n_contacts * n_stored(law));
-    }
-    if constexpr (Law::kEnergy && Law::kHeat)
-      if (law.has_heat() && settings.update && sink.friction_heat > 0)
-        *sink.heat +=
-            sink.friction_heat * (sink.book->rows[EnergyRow::slider] - slid_before) / c.dt;
-    if constexpr (Law::kRecords) {
-      EnergyRecord record = {set.feature[i], mesh, 0, 0, 0};
-      if constexpr (Law::kLosses) {
-        record.dissipated = dissipated(sink.book->rows) - dissipated(before);
-        if (law.keeps_losses)
-          sink.book->keep_losses(law, settings, s, in, before, sink.extra, out.n_contacts);
-      }
-      // Grains that are no spheres are left out, because walls have no impacts with them.
-      if constexpr (!Set::kHasArms)
-        if (settings.update && sink.records.impact_speed > 0 &&
-            !stays(s.springs, in, set.feature[i], mesh)) {
-          // If there are several contacts, impacts follow when all contacts are known (impacts.h).
-          if (weights)
-            *sink.begins = true;
-          else
-            add_impact(taken_by_last_contact(in, s.springs, v, c.overlap), {n, -away, c.overlap},
-                       c.mass, c.dt, sink.records, record);
-        }
-      sink.records.put(record);
-    }
-    if constexpr (Law::kHistory) {
-      const int at = out.n_contacts;
-      sink.springs[at] = {memory.shear, n, set.feature[i], mesh};
-      if constexpr (Law::kExtra > 0) store_extra(law, memory, sink.extra + at * n_stored(law));
-    }
-    const Vec3 tangential = weight * f.tangential;
-    if constexpr (Law::kKeepsContacts) {
-      const Real normal = weight * f.normal, pressing = normal > 0 ? normal : Real(0);
-      StepContact &kept = sink.contacts[out.n_contacts];
-      kept = {set.feature[i],           mesh,         normal, norm(tangential), 0,
-              -normal * n - tangential, s.x - closest};
-      if (settings.wear != WearModel::none)
-        kept.wear_power = settings.wear == WearModel::finnie
-                              ? finnie_power(pressing, away, norm(along))
-                              : pressing * slip_speed(law, c, begun, memory);
-    }
+    EvaluatedContact<Law, Set> at;
+    evaluate(grid, law, settings, s, set, i, overlap, weight, at);
+    const int place = out.n_contacts;
+    [[maybe_unused]] RowsBefore<Law> before = {};
+    if constexpr (Law::kLosses) before = sink.book->rows;
+    if constexpr (Law::kEnergy) book_contact(grid, law, settings, s, set, at, sink, place);
+    if constexpr (Law::kRecords)
+      record_contact(law, settings, s, at, before, !weights, sink, place);
+    const Vec3 tangential = weight * at.f.tangential;
+    store_contact(law, settings, s, at, tangential, sink, place);
     out.n_contacts++;
-
-    const Vec3 force = (weight * f.normal) * n + tangential;
-    out.force += force;
-    add_torque(arm, n, force, tangential, out.torque);
-    out.energy += weight * f.energy;
-    if constexpr (Law::kContactTorque) out.torque += weight * f.contact_torque;
-    if constexpr (Law::kHeat)
-      if (law.has_heat()) *sink.heat += weight * f.heat;
-    if (settings.with_point) {
-      const Real w = weight * fabs(f.normal);
-      out.weight += w;
-      out.weighted_point += w * closest;
-    }
+    add_to_result(law, settings, at, tangential, sink, out);
   }
 }
 

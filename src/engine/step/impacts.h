@@ -24,6 +24,19 @@ struct StruckContact {
   bool has_moved;        // it was on another feature; if neither, it is new
 };
 
+// Calls visit(slot, contacts, from) for each mesh that a sphere touches: the sphere's slot among candidate-mesh pairs, its contacts with
+// that mesh, and the number of the first of them in the set.
+template <class Sphere, class Contacts, class Visit>
+LSDCD_FN void for_each_touched_mesh(const Sphere &sphere, const Contacts &set, const Visit &visit)
+{
+  for (int m = 0, from = 0; m < sphere.n_meshes(); m++) {
+    const auto slot = sphere.begin() + m;
+    const int to = sphere.contacts_end(slot, set.n);
+    if (!Sphere::kSeveral || to > from) visit(slot, set.part(from, to - from), from);
+    from = to;
+  }
+}
+
 // Returns whether no contact of a sphere continues old spring k. `carries`: see is_left_by().
 template <class Sphere, class Contacts>
 LSDCD_FN bool is_left_by_all(const Sphere &sphere, const Contacts &set, bool carries, int k)
@@ -44,20 +57,15 @@ template <class Law, class Sphere, class Contacts, class Visit>
 LSDCD_FN void for_each_struck(const StepJob &job, const Sphere &sphere, const Contacts &set,
                               const Real *weight, const Visit &visit)
 {
-  for (int m = 0, i = 0; m < sphere.n_meshes(); m++) {
-    const auto slot = sphere.begin() + m;
-    const int from = i, to = sphere.contacts_end(slot, set.n);
-    if (from == to) continue;
+  for_each_touched_mesh(sphere, set, [&](auto slot, const Contacts &of_mesh, int from) {
     const auto mesh = sphere.mesh(slot);
     const ForceSettings &settings = mesh.settings;
-    const Contacts of_mesh = set.part(from, to - from);
     auto state = sphere.state(mesh.law, slot);
     add_motion(mesh.law, job, settings.pose, sphere.i, state);
-    for (; i < to; i++) {
-      const int at = i - from;
+    for (int at = 0; at < of_mesh.n; at++) {
       const Vec3 n = of_mesh.normal[at], closest = of_mesh.foot_of(at, state.x, n);
       const FeatureCode feature = of_mesh.feature[at];
-      const Transfer in = transfer_to(mesh.grid, mesh.law, of_mesh, at, state);
+      const Transfer in = contacts_in_step(of_mesh).transfer(mesh.grid, mesh.law, at, state);
       NodeShares nodes = {};
       const Vec3 v =
           velocity_against<Law>(mesh.grid.wall, settings, state, feature, closest, nodes);
@@ -70,7 +78,7 @@ LSDCD_FN void for_each_struck(const StepJob &job, const Sphere &sphere, const Co
                          mass_at<Law>(settings, state.mass, closest, n),
                          feature,
                          settings.mesh,
-                         weight[i] > 0,
+                         weight[from + at] > 0,
                          stays(state.springs, in, feature, settings.mesh),
                          false};
       if (!c.stays && may_have_moved(in)) {
@@ -78,9 +86,9 @@ LSDCD_FN void for_each_struck(const StepJob &job, const Sphere &sphere, const Co
         c.has_moved = is_left_by_all(sphere, set, dot(n, was) > kSameDirection, in.from);
         c.before = strike_along(was);
       }
-      visit(c, i);
+      visit(c, from + at);
     }
-  }
+  });
 }
 
 // Writes the impacts of a sphere to the list of records. Of impacts that begin in the same step the fastest comes first, so that they

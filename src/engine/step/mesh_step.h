@@ -171,6 +171,37 @@ LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const MarksO
   }
 }
 
+// The largest overlap of a sphere among its meshes, and which of these it touches.
+struct DeepestAtMeshes {
+  Real ratio = 0;    // to the radius
+  std::uint32_t mesh = 0, touched = 0;
+
+  LSDCD_FN void add(Real at_mesh, std::uint32_t number)
+  {
+    if (at_mesh > 0) touched |= 1u << number;
+    if (!(at_mesh > ratio)) return;
+    ratio = at_mesh;
+    mesh = number;
+  }
+  LSDCD_FN void record(const StepJob &job, std::size_t i) const
+  {
+    if (record_overlap(job, i, mesh, ratio))
+      raise_to(&job.counts->deepest_meshes, DeepestOverlap::ratio(ratio) | touched);
+  }
+};
+
+// Returns the sink of a mesh's contacts behind `done` contacts with other meshes.
+template <class Law>
+LSDCD_FN SinkOf<Law> sink_behind([[maybe_unused]] const Law &law, const SinkOf<Law> &sink,
+                                 [[maybe_unused]] int done)
+{
+  SinkOf<Law> to = sink;
+  if constexpr (Law::kHistory) to.springs += done;
+  if constexpr (Law::kStoresExtra) to.extra += done * n_stored(law);
+  if constexpr (Law::kKeepsContacts) to.contacts += done;
+  return to;
+}
+
 // Applies the law to the contacts of a sphere with one mesh or several, mesh after mesh, each in the frame of its mesh: computes force,
 // torque, springs and contacts. The moment about the origin is stored, too, so that totals can be made after spheres have moved on. The
 // sphere is a OneMeshSphere, or a MultiMeshSphere with its contacts (AtMeshes), which is a candidate of each of its meshes. `weight` null:
@@ -190,7 +221,7 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     put_no_contact(job, begin, i);
     return;
   }
-  int first = 0, n_done = 0;
+  int first = 0;    // place in the pool of contacts
   SinkOf<Law> sink = {};
   // All laws of a wall store the same numbers of a contact.
   if (!reserve_places(sphere.mesh(begin).law, job, begin,
@@ -199,65 +230,52 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     return;
   }
   [[maybe_unused]] bool begins = false;
-  [[maybe_unused]] Real deepest = 0;
-  [[maybe_unused]] std::uint32_t deepest_mesh = 0, touched = 0;
-  int from = 0;
-  for (int m = 0; m < sphere.n_meshes(); m++) {
-    const auto k = begin + m;
-    const int to = sphere.contacts_end(k, set.n), n = to - from;
-    if (Sphere::kSeveral && n == 0) continue;
-    const LawAtMesh<Law> mesh = sphere.mesh(k);
+  if constexpr (Law::kEnergy) {
+    sink.marks = &marks;
+    sink.friction_heat = job.friction_heat;
+  }
+  if constexpr (Law::kRecords) {
+    sink.records = job.records;
+    sink.begins = &begins;
+  }
+  int n_done = 0;    // contacts that are stored
+  [[maybe_unused]] DeepestAtMeshes deepest;
+  for_each_touched_mesh(sphere, set, [&](auto slot, const Contacts &of_mesh, int from) {
+    const LawAtMesh<Law> mesh = sphere.mesh(slot);
     const Law &law = mesh.law;
     const ForceSettings &settings = mesh.settings;
-    const Contacts of_mesh = set.part(from, n);
-    auto state = sphere.state(law, k);
+    auto state = sphere.state(law, slot);
     add_motion(law, job, settings.pose, i, state);
 
-    SinkOf<Law> to_mesh = sink;
+    SinkOf<Law> to_mesh = sink_behind<Law>(law, sink, n_done);
     [[maybe_unused]] EnergyBook<Law> book = {};
-    if constexpr (Law::kEnergy) {
-      to_mesh.book = &book;
-      to_mesh.marks = &marks;
-      to_mesh.friction_heat = job.friction_heat;
-    }
-    if constexpr (Law::kRecords) {
-      to_mesh.records = job.records;
-      to_mesh.begins = &begins;
-    }
-    if constexpr (Law::kHistory) to_mesh.springs += n_done;
-    if constexpr (Law::kStoresExtra) to_mesh.extra += n_done * n_stored(law);
-    if constexpr (Law::kKeepsContacts) to_mesh.contacts += n_done;
+    if constexpr (Law::kEnergy) to_mesh.book = &book;
     if constexpr (Law::kHeat)
       if (law.has_heat()) {
-        to_mesh.heat = job.heat + k;
+        to_mesh.heat = job.heat + slot;
         *to_mesh.heat = 0;
       }
     SphereResult out = {};
-    add_contacts(mesh.grid, law, settings, state, of_mesh, weight + from, to_mesh, out);
+    add_contacts(mesh.grid, law, settings, state, contacts_in_step(of_mesh), weight + from, to_mesh,
+                 out);
     if constexpr (Law::kEnergy) {
-      job.energy[k] = book.rows;
-      job.is_booked[k] = 1;
+      job.energy[slot] = book.rows;
+      job.is_booked[slot] = 1;
     }
-    from = to;
-    if constexpr (Sphere::kSeveral) {
-      if (out.overlap_ratio > 0) touched |= 1u << settings.mesh;
-      if (out.overlap_ratio > deepest) {
-        deepest = out.overlap_ratio;
-        deepest_mesh = settings.mesh;
-      }
-    } else {
+    if constexpr (Sphere::kSeveral)
+      deepest.add(out.overlap_ratio, settings.mesh);
+    else
       record_overlap(job, i, settings.mesh, out.overlap_ratio);
-    }
-    job.result.n_contacts[k] = out.n_contacts;
-    if (out.n_contacts == 0) continue;
-    if constexpr (Law::kKeepsContacts) job.pool.first_contact[k] = first + n_done;
+    job.result.n_contacts[slot] = out.n_contacts;
+    if (out.n_contacts == 0) return;
+    if constexpr (Law::kKeepsContacts) job.pool.first_contact[slot] = first + n_done;
     if constexpr (Law::kHeat)
       if (law.has_heat()) job.heat_flow[i] += *to_mesh.heat;
     n_done += out.n_contacts;
     if constexpr (Law::kPosed)
       if (settings.pose.placed) to_box(settings.pose, out);
-    add_force(job, k, i, sphere.in_box(), out);
-  }
+    add_force(job, slot, i, sphere.in_box(), out);
+  });
   if constexpr (Law::kLosses) {
     marks.springs = sink.springs;
     marks.extra = sink.extra;
@@ -266,9 +284,7 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
   if constexpr (Law::kEnergy) close_books<Law>(job, sphere, marks);
   if constexpr (Law::kRecords && !Contacts::kHasArms)
     if (begins) record_impacts<Law>(job, sphere, set, weight);
-  if constexpr (Sphere::kSeveral)
-    if (record_overlap(job, i, deepest_mesh, deepest))
-      raise_to(&job.counts->deepest_meshes, DeepestOverlap::ratio(deepest) | touched);
+  if constexpr (Sphere::kSeveral) deepest.record(job, i);
   if constexpr (Law::kHistory)
     if (job.settings.stores) {
       if (n_done > 0) job.pool.first[i] = first;

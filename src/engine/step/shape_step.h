@@ -38,55 +38,58 @@ Real radius_for(const Law &law, const Superellipsoid &shape, const Vec3 &own_poi
   return law.reads_radius ? contact_curvature_radius(shape, own_point, overlap) : radius;
 }
 
-// The answers to add_contacts() for a grain that is no sphere: velocity and force are at the grain's point.
-template <class Law, class Springs>
-Transfer transfer_to(const GridView &grid, const Law &law, const GrainContactsView &set, int i,
-                     const SphereStateWith<Springs> &s)
+// The contacts of a grain that is no sphere, as SphereContacts has those of a sphere. Velocity and force are at the grain's point.
+struct GrainContactsInStep : GrainContactsView {
+  using Arm = const GrainContact *;
+
+  template <class Law, class Springs>
+  Transfer transfer(const GridView &grid, const Law &law, int i,
+                    const SphereStateWith<Springs> &s) const
+  {
+    const OldGrainContacts<Springs> old = {s.springs, s.extra, n_stored(law), *at[i].metric};
+    return transfer_of(grid.wall, view(), i, old, s.n_springs);
+  }
+  template <class Springs>
+  Real reported_radius(const SphereStateWith<Springs> &) const
+  {
+    return shape->nearest;
+  }
+  template <class Law, class Springs>
+  Real law_radius(const Law &law, int i, const SphereStateWith<Springs> &s) const
+  {
+    return radius_for(law, *shape, at[i].metric->to_own(at[i].arm), at[i].overlap, s.radius);
+  }
+  template <class Law, class Springs>
+  Arm add_spin(const Law &, int i, const SphereStateWith<Springs> &s, Real away, const Vec3 &along,
+               Contact &c) const
+  {
+    const Vec3 turning = cross(s.omega, at[i].arm);
+    const Real turning_away = dot(turning, c.normal);
+    c.v_normal = away + turning_away;
+    c.v_tangent = along + (turning - turning_away * c.normal);
+    return &at[i];
+  }
+  static void add_torque(Arm at, const Vec3 &, const Vec3 &force, const Vec3 &, Vec3 &torque)
+  {
+    torque += cross(at->arm, force) + at->couple;
+  }
+  static Real booked_distance(int, const Contact &c) { return c.radius; }
+  static Real booked_arm(Arm, const Contact &c) { return c.overlap; }
+  template <class Law, class Springs>
+  void book(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wall,
+            const ForceSettings &settings, const SphereStateWith<Springs> &s, int i,
+            const BookedContact<Law> &booked, const Transfer &in, EnergyMarks &marks,
+            Real *to) const
+  {
+    add_grain(book, law, wall, settings, s, booked, at[i], in, marks, to);
+  }
+
+ private:
+  const GrainContactsView &view() const { return *this; }
+};
+inline GrainContactsInStep contacts_in_step(const GrainContactsView &set)
 {
-  const OldGrainContacts<Springs> old = {s.springs, s.extra, n_stored(law), *set.at[i].metric};
-  return transfer_of(grid.wall, set, i, old, s.n_springs);
-}
-template <class Springs>
-Real radius_of(const GrainContactsView &set, const SphereStateWith<Springs> &)
-{
-  return set.shape->nearest;
-}
-template <class Law, class Springs>
-Real radius_of(const Law &law, const GrainContactsView &set, int i,
-               const SphereStateWith<Springs> &s)
-{
-  const GrainContact &at = set.at[i];
-  return radius_for(law, *set.shape, at.metric->to_own(at.arm), at.overlap, s.radius);
-}
-template <class Law, class Springs>
-const GrainContact &add_spin(const Law &, const GrainContactsView &set, int i,
-                             const SphereStateWith<Springs> &s, Real away, const Vec3 &along,
-                             Contact &c)
-{
-  const GrainContact &at = set.at[i];
-  const Vec3 turning = cross(s.omega, at.arm);
-  const Real turning_away = dot(turning, c.normal);
-  c.v_normal = away + turning_away;
-  c.v_tangent = along + (turning - turning_away * c.normal);
-  return at;
-}
-inline void add_torque(const GrainContact &at, const Vec3 &, const Vec3 &force, const Vec3 &,
-                       Vec3 &torque)
-{
-  torque += cross(at.arm, force) + at.couple;
-}
-inline BookedLengths booked_lengths(const GrainContactsView &, int, const GrainContact &,
-                                    const Contact &c)
-{
-  return {c.radius, c.overlap};
-}
-template <class Law, class Springs>
-void book_contact(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wall,
-                  const ForceSettings &settings, const SphereStateWith<Springs> &s,
-                  const GrainContactsView &set, int i, const BookedContact<Law> &booked,
-                  const Transfer &in, EnergyMarks &marks, Real *to)
-{
-  add_grain(book, law, wall, settings, s, booked, set.at[i], in, marks, to);
+  return {set};
 }
 
 // The memory of a thread for grains that are no spheres.
