@@ -57,13 +57,14 @@ double value_of(double given, const char *option, const MaterialSection *materia
   return stated->value;
 }
 
-// Two bodies that meet.
-struct Pair {
-  const char *name, *reason;
-  double modulus, mass, radius, speed;    // E*, and effective ones
+// The materials of the grains and of the wall.
+struct Materials {
+  Elastic grains, wall;
+  double density;    // of the grains
 };
 
-void run(const TimestepOptions &o)
+// Reads the materials from the options, and from the file what the options do not give.
+Materials materials_of(const TimestepOptions &o)
 {
   MaterialFile file;
   const MaterialSection *grain = nullptr, *wall = nullptr;
@@ -75,89 +76,144 @@ void run(const TimestepOptions &o)
   } else if (!o.on.empty()) {
     throw_usage_error("--on", "names a material of a file: give the file and the grains' name");
   }
-  const Elastic grains = {value_of(o.young, "--young", grain, "youngs_modulus"),
-                          value_of(o.poisson, "--poisson", grain, "poissons_ratio")};
-  const double density = value_of(o.density, "--density", grain, "density");
+  Materials read;
+  read.grains = {value_of(o.young, "--young", grain, "youngs_modulus"),
+                 value_of(o.poisson, "--poisson", grain, "poissons_ratio")};
+  read.density = value_of(o.density, "--density", grain, "density");
   // Without other words the wall has the material of the grains.
-  const bool same = o.on.empty();
-  const Elastic walls = {same && std::isnan(o.wall_young)
-                             ? grains.youngs_modulus
-                             : value_of(o.wall_young, "--wall-young", wall, "youngs_modulus"),
-                         same && std::isnan(o.wall_poisson)
-                             ? grains.poissons_ratio
-                             : value_of(o.wall_poisson, "--wall-poisson", wall, "poissons_ratio")};
-
-  // The smallest grains need the smallest timestep.
-  const double least = *std::min_element(o.radius.begin(), o.radius.end());
-  const double mass = density * 4 / 3 * kPi * least * least * least;
-  const double own = contact_moduli(grains, grains).youngs,
-               at_wall = contact_moduli(grains, walls).youngs;
-  const double rayleigh =
-      rayleigh_time(least, density, grains.youngs_modulus, grains.poissons_ratio);
-  ContactLaw law = granular_law(NormalModel::hertz);
-  law.k_normal = at_wall * 4 / 3;
-  const double warned = contact_time(law, mass, least, 1) / kStepsPerContact;
-
-  double dt = kRayleighShare * rayleigh;
-  const char *why = "the Rayleigh time";
-  const auto takes = [&](double other, const char *reason) {
-    if (other >= dt) return;
-    dt = other;
-    why = reason;
+  const auto of_wall = [&](double given, double of_grains, const char *option,
+                           const char *property) {
+    return o.on.empty() && std::isnan(given) ? of_grains : value_of(given, option, wall, property);
   };
-  const Pair pairs[] = {
-      {"grain on grain", "the impact of grain on grain", own, mass / 2, least / 2, o.speed},
-      {"grain on wall", "the impact on the wall", at_wall, mass, least, o.speed + o.wall_speed}};
-  double deepest = 0;
-  std::string rows;
+  read.wall = {
+      of_wall(o.wall_young, read.grains.youngs_modulus, "--wall-young", "youngs_modulus"),
+      of_wall(o.wall_poisson, read.grains.poissons_ratio, "--wall-poisson", "poissons_ratio")};
+  return read;
+}
+
+// Two bodies that meet.
+struct Pair {
+  const char *name, *reason;              // in the table; in set_by
+  double modulus, mass, radius, speed;    // E*, and effective ones
+};
+
+struct Impact {
+  Pair pair;
+  double time;        // from touch to release
+  double overlap;     // the largest, per radius of the grain
+  double timestep;    // the longest that resolves the impact
+};
+
+// Returns the impact of a pair, whose radius is an effective one. `grain_radius`: that of the grain itself.
+Impact impact_of(const Pair &pair, double grain_radius)
+{
+  const HertzImpact impact = hertz_impact(pair.modulus, pair.mass, pair.radius, pair.speed);
+  return {pair, impact.time, impact.overlap / grain_radius, impact.time / kStepsPerImpact};
+}
+
+// All that the command prints.
+struct TimestepAnswer {
+  double radius;      // of the smallest grains: they need the smallest timestep
+  double rayleigh;    // time
+  std::vector<Impact> impacts;
+  double fix_limit;          // the timestep above which the fix warns
+  double timestep;           // the smallest of all these
+  const char *set_by;        // the reason for that one
+  double way;                // of a grain towards the wall in one timestep, per radius
+  double kn_own, kn_wall;    // of grains on one another and on the wall, for hertz/history
+
+  bool is_too_soft() const
+  {
+    return std::any_of(impacts.begin(), impacts.end(),
+                       [](const Impact &i) { return i.overlap > kDeep; });
+  }
+};
+
+// Sets the timestep to the smallest of the limits, which `a` has already, and says which one that is.
+void choose_timestep(TimestepAnswer &a)
+{
+  a.timestep = kRayleighShare * a.rayleigh;
+  a.set_by = "the Rayleigh time";
+  const auto takes = [&a](double other, const char *reason) {
+    if (other >= a.timestep) return;
+    a.timestep = other;
+    a.set_by = reason;
+  };
+  for (const Impact &i : a.impacts) takes(i.timestep, i.pair.reason);
+  takes(a.fix_limit, "the limit of the fix");
+}
+
+TimestepAnswer answer_of(const TimestepOptions &o, const Materials &m)
+{
+  TimestepAnswer a;
+  const double radius = *std::min_element(o.radius.begin(), o.radius.end());
+  const double mass = m.density * 4 / 3 * kPi * radius * radius * radius;
+  const double own = contact_moduli(m.grains, m.grains).youngs,
+               at_wall = contact_moduli(m.grains, m.wall).youngs;
+  a.radius = radius;
+  a.rayleigh = rayleigh_time(radius, m.density, m.grains.youngs_modulus, m.grains.poissons_ratio);
+  a.impacts = {impact_of({"grain on grain", "the impact of grain on grain", own, mass / 2,
+                          radius / 2, o.speed},
+                         radius),
+               impact_of({"grain on wall", "the impact on the wall", at_wall, mass, radius,
+                          o.speed + o.wall_speed},
+                         radius)};
+  a.kn_own = own * 4 / 3;
+  a.kn_wall = at_wall * 4 / 3;
+  ContactLaw law = granular_law(NormalModel::hertz);
+  law.k_normal = a.kn_wall;
+  a.fix_limit = contact_time(law, mass, radius, 1) / kStepsPerContact;
+  choose_timestep(a);
+  a.way = (o.speed + o.wall_speed) * a.timestep / radius;
+  return a;
+}
+
+nlohmann::json as_json(const TimestepAnswer &a)
+{
   nlohmann::json impacts;
-  for (const Pair &pair : pairs) {
-    const HertzImpact impact = hertz_impact(pair.modulus, pair.mass, pair.radius, pair.speed);
-    const double overlap = impact.overlap / least, allowed = impact.time / kStepsPerImpact;
-    takes(allowed, pair.reason);
-    deepest = std::max(deepest, overlap);
-    char row[128];
-    std::snprintf(row, sizeof row, "%-18s %-10.4g %-14.4g %-20.3g %.4g\n", pair.name, pair.speed,
-                  impact.time, overlap, allowed);
-    rows += row;
-    impacts.push_back({{"of", pair.name},
-                       {"speed", pair.speed},
-                       {"time", impact.time},
-                       {"overlap_per_radius", overlap},
-                       {"timestep", allowed}});
-  }
-  takes(warned, "the limit of the fix");
-  const double way = (o.speed + o.wall_speed) * dt / least, kn_own = own * 4 / 3,
-               kn_wall = at_wall * 4 / 3;
-  if (o.json) {
-    const nlohmann::json all = {{"smallest_radius", least},
-                                {"rayleigh_time", rayleigh},
-                                {"impacts", impacts},
-                                {"fix_warns_above", warned},
-                                {"timestep", dt},
-                                {"set_by", why},
-                                {"way_per_radius", way},
-                                {"hertz_kn", {{"grains", kn_own}, {"wall", kn_wall}}},
-                                {"too_soft", deepest > kDeep}};
-    print_json(stdout, all);
-    return;
-  }
-  std::printf("smallest radius    %.6g\n", least);
-  std::printf("Rayleigh time      %.4g    %g of it: %.4g\n", rayleigh, kRayleighShare,
-              kRayleighShare * rayleigh);
+  for (const Impact &i : a.impacts)
+    impacts.push_back({{"of", i.pair.name},
+                       {"speed", i.pair.speed},
+                       {"time", i.time},
+                       {"overlap_per_radius", i.overlap},
+                       {"timestep", i.timestep}});
+  return {{"smallest_radius", a.radius}, {"rayleigh_time", a.rayleigh},
+          {"impacts", impacts},          {"fix_warns_above", a.fix_limit},
+          {"timestep", a.timestep},      {"set_by", a.set_by},
+          {"way_per_radius", a.way},     {"hertz_kn", {{"grains", a.kn_own}, {"wall", a.kn_wall}}},
+          {"too_soft", a.is_too_soft()}};
+}
+
+void print(const TimestepAnswer &a)
+{
+  std::printf("smallest radius    %.6g\n", a.radius);
+  std::printf("Rayleigh time      %.4g    %g of it: %.4g\n", a.rayleigh, kRayleighShare,
+              kRayleighShare * a.rayleigh);
   std::printf(
-      "impact             speed      time           overlap per radius   1/%g of the time\n%s",
-      kStepsPerImpact, rows.c_str());
+      "impact             speed      time           overlap per radius   1/%g of the time\n",
+      kStepsPerImpact);
+  for (const Impact &i : a.impacts)
+    std::printf("%-18s %-10.4g %-14.4g %-20.3g %.4g\n", i.pair.name, i.pair.speed, i.time,
+                i.overlap, i.timestep);
   std::printf(
       "the fix warns      above %.4g, a tenth of a contact with the wall at an overlap of 1 %%\n",
-      warned);
-  std::printf("\ntimestep           %.3g    set by %s\n", dt, why);
-  std::printf("way in a step      %.3g of the radius\n", way);
-  std::printf("hertz/history      kn %.6g on grains, %.6g on the wall (4/3 of E*)\n", kn_own,
-              kn_wall);
-  if (deepest > kDeep)
+      a.fix_limit);
+  std::printf("\ntimestep           %.3g    set by %s\n", a.timestep, a.set_by);
+  std::printf("way in a step      %.3g of the radius\n", a.way);
+  std::printf("hertz/history      kn %.6g on grains, %.6g on the wall (4/3 of E*)\n", a.kn_own,
+              a.kn_wall);
+  if (a.is_too_soft())
     std::printf("Overlaps exceed %g of the radius: a stiffer material is needed at this speed.\n",
                 kDeep);
+}
+
+void run(const TimestepOptions &o)
+{
+  const TimestepAnswer answer = answer_of(o, materials_of(o));
+  if (o.json)
+    print_json(stdout, as_json(answer));
+  else
+    print(answer);
 }
 
 }    // namespace
