@@ -39,21 +39,22 @@ std::string known_unit(const std::string &word)
   return word + " not in {" + all + "}";
 }
 
-void run(const ConvertOptions &o)
+// Reads the mesh, scaled and placed as the options say.
+ReadMesh read_placed(const ConvertOptions &o)
 {
-  check_mesh_name(o.output);    // before the work
-  check_outputs({{"--output", o.output}}, {o.file});
   PlacementOptions place = o.place;
   if (place.scale.empty()) place.scale = {kMetres.at(o.units)};
   const Placement placement = placement_of(place);
   ReadMesh read = read_mesh(o.file);
-  TriangleSoup &soup = read.soup;
-  placement.apply(soup);
+  placement.apply(read.soup);
   if (o.floats)
-    for (Vec3 &corner : soup.corners) corner = rounded_as_in_stl(corner);
-  // No command would read it again.
-  if (!soup.corners.empty()) checked_diagonal(soup);
-  write_mesh_file(o.output, soup);
+    for (Vec3 &corner : read.soup.corners) corner = rounded_as_in_stl(corner);
+  return read;
+}
+
+void print(const ConvertOptions &o, const ReadMesh &read)
+{
+  const TriangleSoup &soup = read.soup;
   Vec3 lo = soup.corners.empty() ? Vec3{0, 0, 0} : soup.corners[0], hi = lo;
   for (const Vec3 &corner : soup.corners)
     for (int k = 0; k < 3; k++) {
@@ -74,6 +75,17 @@ void run(const ConvertOptions &o)
     std::printf("%s of %s %s left out\n",
                 counted(read.left_out, "point or line", "points and lines").c_str(), o.file.c_str(),
                 read.left_out == 1 ? "is not a facet, and was" : "are not facets, and were");
+}
+
+void run(const ConvertOptions &o)
+{
+  check_mesh_name(o.output);    // before the work
+  check_outputs({{"--output", o.output}}, {o.file});
+  const ReadMesh read = read_placed(o);
+  // No command would read it again.
+  if (!read.soup.corners.empty()) checked_diagonal(read.soup);
+  write_mesh_file(o.output, read.soup);
+  print(o, read);
 }
 
 }    // namespace

@@ -52,20 +52,22 @@ void list(const std::vector<MaterialSection> &sections)
   }
 }
 
-void run(const MaterialOptions &o)
+// Prints all that the file says.
+void list(const MaterialOptions &o)
 {
-  if (o.name.empty()) {
-    const MaterialFile file = read_materials(find_material_file(o.file));
-    if (o.json) {
-      const nlohmann::json all = {{"materials", as_json(file.materials)},
-                                  {"pairs", as_json(file.pairs)}};
-      print_json(stdout, all);
-      return;
-    }
-    list(file.materials);
-    list(file.pairs);
+  const MaterialFile file = read_materials(find_material_file(o.file));
+  if (o.json) {
+    const nlohmann::json all = {{"materials", as_json(file.materials)},
+                                {"pairs", as_json(file.pairs)}};
+    print_json(stdout, all);
     return;
   }
+  list(file.materials);
+  list(file.pairs);
+}
+
+MaterialLaw law_of(const MaterialOptions &o)
+{
   MaterialPair pair;
   pair.file = o.file;
   pair.particle = o.name;
@@ -75,25 +77,42 @@ void run(const MaterialOptions &o)
   with.set_context("material", kWords.syntax);
   if (!o.with.empty()) pair.overrides = read_overrides(with, {pair.particle, pair.wall}, "--with");
   if (!with.done()) with.fail(not_a_property(with.peek()));
-  const MaterialLaw made = law_of_materials(pair, o.units, kWords);
-  if (o.json) {
-    std::vector<std::string> words;
-    std::istringstream text(made.name);
-    for (std::string word; text >> word;) words.push_back(word);
-    const nlohmann::json all = {{"words", words}, {"report", made.report}};
-    print_json(stdout, all);
-    return;
-  }
-  std::printf("%s\n", made.report.c_str());
-  std::printf("  %s\n", made.name.c_str());
+  return law_of_materials(pair, o.units, kWords);
+}
+
+nlohmann::json as_json(const MaterialLaw &law)
+{
+  std::vector<std::string> words;
+  std::istringstream text(law.name);
+  for (std::string word; text >> word;) words.push_back(word);
+  return {{"words", words}, {"report", law.report}};
+}
+
+void print(const MaterialOptions &o, const MaterialLaw &law)
+{
+  std::printf("%s\n", law.report.c_str());
+  std::printf("  %s\n", law.name.c_str());
   if (!o.wall.empty()) return;
-  const std::string old = text_of(sub_models_of_29sep2021(made.sub_models)),
-                    recent = text_of(made.sub_models);
+  const std::string old = text_of(sub_models_of_29sep2021(law.sub_models)),
+                    recent = text_of(law.sub_models);
   std::printf("grains on one another, with pair_style granular of LAMMPS 29Sep2021 and later:\n");
   std::printf("  pair_coeff * * %s\n", old.c_str());
   if (old == recent) return;
   std::printf("the same in the wall's form, which 29Sep2021 does not know:\n");
   std::printf("  pair_coeff * * %s\n", recent.c_str());
+}
+
+void run(const MaterialOptions &o)
+{
+  if (o.name.empty()) {
+    list(o);
+    return;
+  }
+  const MaterialLaw law = law_of(o);
+  if (o.json)
+    print_json(stdout, as_json(law));
+  else
+    print(o, law);
 }
 
 }    // namespace
