@@ -71,11 +71,11 @@ void put(double *array, std::size_t i, const Vec3 &x)
   for (int a = 0; a < 3; a++) array[3 * i + static_cast<std::size_t>(a)] = x[a];
 }
 
-void write_contacts(const TriangleNames &names, const std::vector<ShapeContact> &found,
+void write_contacts(const TriangleNames &names, const std::vector<FoundGrainContact> &found,
                     const lsdcd_shapes &to)
 {
   for (std::size_t i = 0; i < found.size(); i++) {
-    const ShapeContact &f = found[i];
+    const FoundGrainContact &f = found[i];
     put(to.point, i, f.point);
     put(to.of_grain, i, f.of_grain);
     put(to.normal, i, f.normal);
@@ -85,11 +85,11 @@ void write_contacts(const TriangleNames &names, const std::vector<ShapeContact> 
   }
 }
 
-void write_distances(const TriangleNames &names, const std::vector<ShapeContact> &nearest,
+void write_distances(const TriangleNames &names, const std::vector<FoundGrainContact> &nearest,
                      std::size_t from, const lsdcd_shapes &to)
 {
   for (std::size_t k = 0; k < nearest.size(); k++) {
-    const ShapeContact &f = nearest[k];
+    const FoundGrainContact &f = nearest[k];
     const std::size_t i = from + k;
     put(to.closest, i, f.point);
     put(to.closest_of_grain, i, f.of_grain);
@@ -107,13 +107,13 @@ std::size_t answer(const ApiGrid &grid, const lsdcd_shapes &s)
   const TriangleTree &tree = grid.tree(progress.listener());
   const TriangleNames names = grid.names.view();
   ShapesGiven grains = {0, 0, s.centres, s.quaternions, s.half_axes, s.exponents, s.one_shape != 0};
-  std::vector<ShapeContact> found, nearest;
+  std::vector<FoundGrainContact> found, nearest;
   if (s.first) s.first[0] = 0;
   progress.in_parts("grains", s.n, [&](std::size_t from, std::size_t n) {
     grains.from = from;
     grains.n = n;
     if (s.first) {
-      const ShapeContacts made = find_shape_contacts(tree, grains);
+      const FoundGrainContacts made = find_shape_contacts(tree, grains);
       for (std::size_t i = 1; i <= n; i++) s.first[from + i] = found.size() + made.first[i];
       found.insert(found.end(), made.found.begin(), made.found.end());
     }

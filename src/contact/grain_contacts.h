@@ -52,7 +52,8 @@ struct GrainMetric {
   }
 };
 
-// A contact in the frame of its mesh.
+// A contact of a grain that is no sphere, as a step uses it: a FoundGrainContact in the frame of its mesh, with what springs and couples
+// need in addition.
 struct GrainContact {
   FeatureCode feature;
   Vec3 normal;     // unit, wall -> grain

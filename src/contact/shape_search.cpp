@@ -205,14 +205,14 @@ bool may_cut(const Superellipsoid &s, const Vec3 &from, const Vec3 &to, Real dep
   return may_cut_scaled(s, scaled(from, inverse), scaled(to, inverse));
 }
 
-void ShapeSearch::contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found)
+void ShapeSearch::contacts(const PlacedGrain &grain, std::vector<FoundGrainContact> &found)
 {
   find_near(grain, grain.shape.farthest, near_);
   contacts(grain, near_, found);
 }
 
 void ShapeSearch::contacts(const PlacedGrain &grain, NearFeatures &near,
-                           std::vector<ShapeContact> &found)
+                           std::vector<FoundGrainContact> &found)
 {
   if (!is_near_anything(grain)) return;
   if (!find_by_owner(grain, near)) find_by_triangle(grain, near);
@@ -869,7 +869,7 @@ std::uint32_t ShapeSearch::piece_of(std::uint32_t minimum)
 }
 
 // Adds the local minima to `found`, in the order of their features.
-void ShapeSearch::add_contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found)
+void ShapeSearch::add_contacts(const PlacedGrain &grain, std::vector<FoundGrainContact> &found)
 {
   std::sort(local_.begin(), local_.end(),
             [](const Minimum &a, const Minimum &b) { return a.feature < b.feature; });
@@ -878,7 +878,7 @@ void ShapeSearch::add_contacts(const PlacedGrain &grain, std::vector<ShapeContac
     if (same_as_[i] == i) found.push_back(contact_of(grain, local_[i]));
 }
 
-ShapeContact ShapeSearch::nearest(const PlacedGrain &grain)
+FoundGrainContact ShapeSearch::nearest(const PlacedGrain &grain)
 {
   if (!is_near_anything(grain)) return {};
   const TreeAnswer to_centre = tree_.nearest(grain.centre, kAnyDistance, kNoPrimitive);
@@ -993,7 +993,7 @@ void ShapeSearch::add(const ShapeMinimum &m, std::uint32_t primitive)
   if (m.distance < 0) minima_.push_back(made(m, primitive));
 }
 
-ShapeContact ShapeSearch::contact_of(const PlacedGrain &grain, const Minimum &m)
+FoundGrainContact ShapeSearch::contact_of(const PlacedGrain &grain, const Minimum &m)
 {
   const Vec3 of_grain = m.at.foot - m.at.distance * m.at.normal;
   return {m.feature, grain.centre + grain.turned(m.at.foot), -grain.turned(m.at.normal),

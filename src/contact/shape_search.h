@@ -30,8 +30,10 @@ struct PlacedGrain {
   Vec3 own_point(const Vec3 &x) const { return to_own(x - centre); }
 };
 
-// A place of the mesh where the signed distance from a grain is a local minimum below 0, or the least of all.
-struct ShapeContact {
+// A contact of a grain that is no sphere, as the search finds it: a place of the mesh where the signed distance from the grain is a
+// local minimum below 0. ShapeSearch::nearest() returns the place where it is the least of all. GrainContact is the same contact as a
+// step uses it.
+struct FoundGrainContact {
   FeatureCode feature = kNoFeature;
   Vec3 point = {0, 0, 0}, normal = {0, 0, 0};    // on the wall; unit, from there into the grain
   Vec3 of_grain = {0, 0, 0};    // the point of the grain's surface, distance normal from `point`
@@ -68,13 +70,14 @@ class ShapeSearch {
   }
 
   // Adds the contacts of a grain to `found`, in the order of their features.
-  void contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found);
+  void contacts(const PlacedGrain &grain, std::vector<FoundGrainContact> &found);
   // Does the same, with `near` as all features that the sphere around the grain reaches.
-  void contacts(const PlacedGrain &grain, NearFeatures &near, std::vector<ShapeContact> &found);
+  void contacts(const PlacedGrain &grain, NearFeatures &near,
+                std::vector<FoundGrainContact> &found);
   // Sets `near` to all features within `radius` of the grain's centre.
   void find_near(const PlacedGrain &grain, Real radius, NearFeatures &near);
   // Returns the nearest place of the mesh; it has no feature if the grain's centre is not a number.
-  ShapeContact nearest(const PlacedGrain &grain);
+  FoundGrainContact nearest(const PlacedGrain &grain);
 
  private:
   // The least signed distance of a primitive, in the grain's frame.
@@ -169,13 +172,13 @@ class ShapeSearch {
   FeatureCode feature_of(const ShapeMinimum &m, const TreePrimitive &p) const;
   Minimum made(const ShapeMinimum &m, std::uint32_t primitive) const;
   void add(const ShapeMinimum &m, std::uint32_t primitive);
-  static ShapeContact contact_of(const PlacedGrain &grain, const Minimum &m);
+  static FoundGrainContact contact_of(const PlacedGrain &grain, const Minimum &m);
   bool is_local(const PlacedGrain &grain, const Minimum &m) const;
   bool rises_around(const PlacedGrain &grain, const Minimum &m) const;
   bool none_is_deeper(const PlacedGrain &grain, const Minimum &m) const;
   void find_pieces(const PlacedGrain &grain);
   std::uint32_t piece_of(std::uint32_t minimum);
-  void add_contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found);
+  void add_contacts(const PlacedGrain &grain, std::vector<FoundGrainContact> &found);
   void merge(const PlacedGrain &grain);
   bool are_same(const PlacedGrain &grain, const Minimum &a, const Minimum &b) const;
   bool are_neighbours(FeatureCode a, FeatureCode b) const;

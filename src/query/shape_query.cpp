@@ -84,11 +84,12 @@ void each_chunk(const TriangleTree &tree, const ShapesGiven &grains, const OfChu
 
 }    // namespace
 
-ShapeContacts find_shape_contacts(const TriangleTree &tree, const ShapesGiven &grains)
+FoundGrainContacts find_shape_contacts(const TriangleTree &tree, const ShapesGiven &grains)
 {
-  ShapeContacts out;
+  FoundGrainContacts out;
   out.first.resize(grains.n + 1);
-  std::vector<std::vector<ShapeContact>> chunks((grains.n + kGrainsAtATime - 1) / kGrainsAtATime);
+  std::vector<std::vector<FoundGrainContact>> chunks((grains.n + kGrainsAtATime - 1) /
+                                                     kGrainsAtATime);
   each_chunk(tree, grains,
              [&](std::size_t c, std::size_t from, std::size_t to, GrainReader &reader,
                  ShapeSearch &search) {
@@ -100,7 +101,7 @@ ShapeContacts find_shape_contacts(const TriangleTree &tree, const ShapesGiven &g
              });
   for (std::size_t i = 0; i < grains.n; i++) out.first[i + 1] += out.first[i];
   out.found.reserve(out.first[grains.n]);
-  for (std::vector<ShapeContact> &chunk : chunks) {
+  for (std::vector<FoundGrainContact> &chunk : chunks) {
     out.found.insert(out.found.end(), chunk.begin(), chunk.end());
     chunk = {};
   }
@@ -108,7 +109,7 @@ ShapeContacts find_shape_contacts(const TriangleTree &tree, const ShapesGiven &g
 }
 
 void find_shape_distances(const TriangleTree &tree, const ShapesGiven &grains,
-                          ShapeContact *nearest)
+                          FoundGrainContact *nearest)
 {
   each_chunk(
       tree, grains,

@@ -23,16 +23,16 @@ struct ShapesGiven {
 };
 
 // The contacts of grain `from` + i are found[first[i]] to found[first[i + 1] - 1], in the order of their features.
-struct ShapeContacts {
+struct FoundGrainContacts {
   std::vector<std::size_t> first;
-  std::vector<ShapeContact> found;
+  std::vector<FoundGrainContact> found;
 };
 
 // Both functions use threads() threads, and throw InputError for a grain whose numbers make no shape.
-ShapeContacts find_shape_contacts(const TriangleTree &tree, const ShapesGiven &grains);
+FoundGrainContacts find_shape_contacts(const TriangleTree &tree, const ShapesGiven &grains);
 // Writes the nearest place of the mesh for each grain. A grain whose centre is not a number is infinitely far from
 // everything.
 void find_shape_distances(const TriangleTree &tree, const ShapesGiven &grains,
-                          ShapeContact *nearest);
+                          FoundGrainContact *nearest);
 
 }    // namespace lsdcd

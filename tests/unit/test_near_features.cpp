@@ -51,7 +51,7 @@ PlacedGrain random_grain(Random &random, Real exponent)
   return grain;
 }
 
-bool are_same_bits(const std::vector<ShapeContact> &a, const std::vector<ShapeContact> &b)
+bool are_same_bits(const std::vector<FoundGrainContact> &a, const std::vector<FoundGrainContact> &b)
 {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); i++)
@@ -72,7 +72,7 @@ void expect_no_bit_differs(const TriangleSoup &surface, Real exponent, int n_gra
   std::size_t n_contacts = 0;
   for (int i = 0; i < n_grains; i++) {
     const PlacedGrain grain = random_grain(random, exponent);
-    std::vector<ShapeContact> exactly, by_list;
+    std::vector<FoundGrainContact> exactly, by_list;
     search.contacts(grain, exactly);
     n_contacts += exactly.size();
     for (Real reach : {1.2, 1.2, 2.5}) {

@@ -89,7 +89,7 @@ void compare(const TreeCase &mesh, const PutGrains &grains, Wrong &of)
   const Superellipsoid &s = grains.shape;
   const ShapeOracle &oracle = grains.oracle;
   const Long size = s.farthest;
-  const ShapeContacts found = find_shape_contacts(mesh.tree, grains.given());
+  const FoundGrainContacts found = find_shape_contacts(mesh.tree, grains.given());
   for (std::size_t i = 0; i < grains.n(); i++) {
     const Touch &t = grains.touch[i];
     const LongTurn turn(&grains.quaternions[4 * i]);
@@ -107,7 +107,7 @@ void compare(const TreeCase &mesh, const PutGrains &grains, Wrong &of)
     of.touching += t.overlap > 0;
     of.missed += n != (t.overlap > 0 ? 1u : 0u);
     if (n != 1) continue;
-    const ShapeContact &c = found.found[found.first[i]];
+    const FoundGrainContact &c = found.found[found.first[i]];
     const Long distance = std::fabs(c.distance + t.overlap) / size,
                normal = length(vec_cast<Long>(c.normal) + t.normal);
     // Under a flat side the foot goes far by the rounding of a normal: there it is where the two surfaces are.
@@ -227,7 +227,7 @@ TEST(shape_pairs, in_a_corner_touch_each_of_its_sides_by_the_closed_form)
         overlaps.push_back(overlap);
       }
       const Real n[] = {s.n1, s.n2};
-      const ShapeContacts found = find_shape_contacts(
+      const FoundGrainContacts found = find_shape_contacts(
           mesh.tree, {0, overlaps.size(), centres.data(), quaternions.data(), &s.half.x, n, true});
       for (std::size_t i = 0; i < overlaps.size(); i++) {
         std::size_t touching = 0;
@@ -265,14 +265,14 @@ TEST(shape_pairs, a_rod_through_a_sheet_is_as_deep_in_it_as_its_end_is_past_it)
         const TreeCase mesh(cut(corners, pieces));
         const Vec3 x = placed({0.3, 0.2, height}), half = {a, a, c};
         const Real q[] = {kTurn.w, kTurn.v.x, kTurn.v.y, kTurn.v.z}, n[] = {2, 2};
-        const ShapeContacts found =
+        const FoundGrainContacts found =
             find_shape_contacts(mesh.tree, {0, 1, &x.x, q, &half.x, n, true});
         ASSERT_EQ(found.found.size(), corners.size() / 3) << pieces << " " << height;
         for (Real z : {height, height + kThick}) {
           if (z != height && corners.size() == 3) continue;
           const Vec3 out = rotate(kTurn, {0, 0, z < 0 ? -1.0 : 1.0});
           Real off = HUGE_VAL;
-          for (const ShapeContact &k : found.found)
+          for (const FoundGrainContact &k : found.found)
             if (norm(k.point - placed({0.3, 0.2, height - z})) < 1e-4)
               off = std::fabs(k.distance + c - std::fabs(z)) + norm(k.normal - out);
           // Roundings of lengths of 12.

@@ -169,11 +169,11 @@ TEST(shape_passes, are_the_highest_of_all_chains_of_faces)
     grain.shape = make_superellipsoid(uniform(random, {0.5, 0.5, 0.5}, {1.6, 1.6, 1.6}), 2, 2);
     rows_of(rotation_about(random_unit(random), uniform(random, 0, kPi)), grain.row);
     grain.centre = uniform(random, {-0.8, -0.8, 0.2}, {0.8, 0.8, 1.2});
-    std::vector<ShapeContact> found;
+    std::vector<FoundGrainContact> found;
     search.contacts(grain, found);
     std::vector<PassEnd> ends;
     Real deepest = 0;
-    for (const ShapeContact &c : found) {
+    for (const FoundGrainContact &c : found) {
       deepest = std::fmax(deepest, -c.distance);
       ends.push_back({c.feature, -c.distance, grain.to_own(-c.normal),
                       grain.to_own(c.of_grain - grain.centre)});

@@ -111,7 +111,7 @@ Grains at_surface(Random &random, const TriangleSoup &surface, int n, Real most_
     const std::array<Real, 4> turn = random_turn(random);
     Vec3 x = placed(uniform(random, {-1, -1, 2}, {1, 1, 4}));
     const Real wanted = -uniform(random, 0.01, 0.5) * s.rho;
-    ShapeContact nearest;
+    FoundGrainContact nearest;
     for (int step = 0; step < 25; step++) {
       Grains one;
       one.add(x, half, n1, n2, turn);
@@ -130,7 +130,7 @@ struct Differences {
   std::size_t contacts = 0, other_number = 0;
   Real overlap = 0, normal = 0, point = 0;
 };
-Differences compare(const ShapeContacts &a, const ShapeContacts &b)
+Differences compare(const FoundGrainContacts &a, const FoundGrainContacts &b)
 {
   Differences d;
   d.contacts = a.found.size();
@@ -141,8 +141,8 @@ Differences compare(const ShapeContacts &a, const ShapeContacts &b)
     }
     for (std::size_t k = a.first[i]; k < a.first[i + 1]; k++) {
       // Features have other numbers: the nearest normal and overlap.
-      const ShapeContact &one = a.found[k];
-      const ShapeContact *other = nullptr;
+      const FoundGrainContact &one = a.found[k];
+      const FoundGrainContact *other = nullptr;
       for (std::size_t l = b.first[i]; l < b.first[i + 1]; l++)
         if (!other || norm(b.found[l].point - one.point) < norm(other->point - one.point))
           other = &b.found[l];
@@ -163,7 +163,7 @@ void expect_the_same_in_all_pieces(const std::vector<Vec3> &surface, Real most_e
   const Grains grains =
       at_surface(random, cut(surface, 1), most_exponent > 2 ? 12 : 60, most_exponent);
   const TreeCase whole(cut(surface, 1));
-  const ShapeContacts expected = find_shape_contacts(whole.tree, grains.given());
+  const FoundGrainContacts expected = find_shape_contacts(whole.tree, grains.given());
   EXPECT_GE(expected.found.size(), grains.n() - 1);
   for (int pieces : all_pieces) {
     const TreeCase other(cut(surface, pieces));
@@ -209,7 +209,7 @@ TEST(shape_query, finds_one_contact_of_a_flat_side_that_lies_on_a_plane_and_one_
   const Vec3 z = rotate(kTurn, {0, 0, 1});
   for (int pieces : {1, 3, kMostPieces}) {
     const TreeCase plane(cut(fold(0), pieces));
-    const ShapeContacts c = find_shape_contacts(plane.tree, block.given());
+    const FoundGrainContacts c = find_shape_contacts(plane.tree, block.given());
     ASSERT_EQ(c.found.size(), 1u) << pieces;
     EXPECT_NEAR(c.found[0].distance, -0.03, 1e-12);
     EXPECT_LT(norm(c.found[0].normal - z), 1e-12);
@@ -224,9 +224,10 @@ TEST(shape_query, finds_one_contact_of_a_flat_side_that_lies_on_a_plane_and_one_
                                {at - 0.1, 9, 0}});
   for (int pieces : {1, 40}) {
     const TreeCase two(cut(rails, pieces));
-    const ShapeContacts c = find_shape_contacts(two.tree, block.given());
+    const FoundGrainContacts c = find_shape_contacts(two.tree, block.given());
     ASSERT_EQ(c.found.size(), 2u) << pieces;
-    for (const ShapeContact &one : c.found) EXPECT_EQ(feature_kind(one.feature), FeatureKind::edge);
+    for (const FoundGrainContact &one : c.found)
+      EXPECT_EQ(feature_kind(one.feature), FeatureKind::edge);
   }
 }
 
@@ -259,7 +260,7 @@ TEST(shape_query, finds_no_contact_that_has_no_overlap)
       grains.add(placed({uniform(random, -2, 2), uniform(random, -2, 2), half.z}), half, n, n,
                  {kTurn.w, kTurn.v.x, kTurn.v.y, kTurn.v.z});
     }
-    for (const ShapeContact &c : find_shape_contacts(plane.tree, grains.given()).found) {
+    for (const FoundGrainContact &c : find_shape_contacts(plane.tree, grains.given()).found) {
       EXPECT_LT(c.distance, 0) << n;
       found++;
     }
@@ -286,7 +287,7 @@ TEST(shape_query, finds_the_rim_of_a_table_alone_where_the_centre_is_below_the_t
   grains.add(placed(centre), rod.half, 2, 2, {q.w, q.v.x, q.v.y, q.v.z});
   for (int pieces : {1, 7, kMostPieces}) {
     const TreeCase at(cut(table, pieces));
-    const ShapeContacts c = find_shape_contacts(at.tree, grains.given());
+    const FoundGrainContacts c = find_shape_contacts(at.tree, grains.given());
     ASSERT_EQ(c.found.size(), 1u) << pieces;
     // Roundings of lengths of 9, over the grain's size.
     EXPECT_NEAR(c.found[0].distance, -kDepth, 1e-13) << pieces;
@@ -327,8 +328,8 @@ TEST(shape_query, finds_the_nearest_triangle_and_all_local_minima_of_a_look_at_e
       grains.add(m.report.lo + uniform(random, {0, 0, 0}, m.report.hi - m.report.lo),
                  size * uniform(random, {0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}), i % 2 ? 2 : 3,
                  i % 3 ? 2 : 4, random_turn(random));
-    const ShapeContacts contacts = find_shape_contacts(mesh->tree, grains.given());
-    std::vector<ShapeContact> nearest(grains.n());
+    const FoundGrainContacts contacts = find_shape_contacts(mesh->tree, grains.given());
+    std::vector<FoundGrainContact> nearest(grains.n());
     find_shape_distances(mesh->tree, grains.given(), nearest.data());
     for (std::size_t i = 0; i < grains.n(); i++) {
       const Superellipsoid s = grains.shape(i);

@@ -101,7 +101,7 @@ struct ShapeMemory {
   };
   std::vector<std::unique_ptr<OfMesh>> of_mesh;
   std::vector<PlacedGrain> placed;    // at each mesh
-  std::vector<ShapeContact> found;
+  std::vector<FoundGrainContact> found;
   std::vector<GrainContact> contacts;
   std::vector<GrainMetric> metric;
   std::vector<Real> weight;
@@ -170,7 +170,7 @@ class ShapeAtMeshes {
       with->search.find_near(grain, near.reach, near.features);
     }
     with->search.contacts(grain, near.features, memory_.found);
-    for (const ShapeContact &c : memory_.found) {
+    for (const FoundGrainContact &c : memory_.found) {
       const Vec3 arm = c.of_grain - grain.centre;
       add({c.feature, c.normal, -c.distance, arm, c.point, metric.direction(c.normal, arm),
            &metric},
