@@ -75,9 +75,9 @@ class Wall {
   // Prepares for a run; called before each one. `virial`: add_virial() may be called in that run.
   void begin_run(std::int64_t step, bool virial);
 
-  // Begins a step: advances the clock, moves the meshes, and rebuilds grids that no longer fit. If spheres are in the memory of a GPU, work that
-  // is in the host's stream now may still write their arrays: the step waits for that, but for nothing that comes into the stream later. If there are several processes and
-  // one of them fails, finish() throws its error later, after all processes have reached it.
+  // Begins a step: advances the clock, moves the meshes, and rebuilds grids that no longer fit. If spheres are in the memory of a GPU, work
+  // that is in the host's stream now may still write their arrays: the step waits for that, but for nothing that comes into the stream
+  // later. If there are several processes and one of them fails, finish() throws its error later, after all processes have reached it.
   void begin(const HostSpheres &spheres, const StepInput &input);
   // Moves the vertices of meshes that change by themselves, as by wear, if this is due in this step. A host that reads the surface before
   // begin() calls this function first; otherwise begin() does.
@@ -147,7 +147,8 @@ class Wall {
 
   // Returns the values of spec().inputs in the last step; none before the first one.
   const std::vector<Real> &last_inputs() const { return input_.inputs; }
-  // Takes those of the step from which restore() is to go on: with them bodies end it, and pressures act on nodes. Before that.
+  // Sets the values of spec().inputs in the step that was saved. Called before restore(): bodies end that step with these values, and
+  // pressures act on nodes with them.
   void restore_inputs(const std::vector<Real> &values);
   // Replaces the names of inputs. One of the two lists begins with the other.
   void set_inputs(const InputNames &inputs);
@@ -201,110 +202,169 @@ class Wall {
   void restore_springs(const std::vector<std::vector<Real>> &spheres);
 
  private:
+  // Make the engine, and another one when a different device or different settings are due.
   EngineSettings engine_settings() const
   {
     return engine_input_.settings(device_.device(), virial_, !bodies_.empty());
   }
   void make_engine();
   void settle(const HostSpheres &spheres, const StepInput &input);
-  void open_step(const HostSpheres &spheres, const StepInput &input);
+  Real most_candidates();
   void log_creation(const std::string &material, const WallBackend &backend) const;
-  std::string named(const MeshPart &m, const std::string &text) const;
-  SpheresOnCpu on_cpu(const HostSpheres &spheres) const
-  {
-    return SpheresOnCpu(spheres, backend_.to_cpu);
-  }
+  void log_device(Real near);
+
+  // Keep the error of one process in a step.
   template <class Work>
   void guard(const HostSpheres &spheres, Work &&work);
   InputError failure_here(const HostSpheres &spheres) const;
 
+  // The parts of begin(): the input, then the meshes, then grids and spheres.
+  void open_step(const HostSpheres &spheres, const StepInput &input);
   void check_history(int n);
-  const StepTotals &sums();
-  Real most_candidates();
-  void log_device(Real near);
   void move(const HostSpheres &spheres);
+  ServoLoad servo_load(int mesh);
+  void complete_bodies();
+  Touch touch(const MeshPart &m);    // in the last step
   void place_grids(const HostSpheres &spheres);
   void look_at_spheres(const HostSpheres &spheres);
   void look_at_new_spheres(const HostSpheres &spheres);
   void look_at_range(const HostSpheres &spheres);
-  ServoLoad servo_load(int mesh);
-  void complete_bodies();
-  Touch touch(const MeshPart &m);    // in the last step
+  SpheresOnCpu on_cpu(const HostSpheres &spheres) const
+  {
+    return SpheresOnCpu(spheres, backend_.to_cpu);
+  }
+
+  // The parts of submit().
+  void choose_if_due(const Spheres &spheres);
   StepSettings step_settings();
+
+  // The parts of finish().
   void collect(int n);
   StepResults *results() const;
   void note_poses();
-  std::vector<NodeLoad> node_loads();
   void note_step(const HostSpheres &spheres);
   void record(const StepResults *left);
-  Real pressure(int mesh) const;    // in this step, in units of forces
-
-  void choose_if_due(const Spheres &spheres);
   void log_new_springs(const Step &step);
   StepDiagnostics read_diagnostics(const HostSpheres &spheres);
   void check_new_spheres(const HostSpheres &spheres);
 
+  // Results of the last step.
+  const StepTotals &sums();
+  std::vector<NodeLoad> node_loads();
+  Real pressure(int mesh) const;    // in this step, in units of forces
+
+  // What a change of a mesh's motion, servo or body brings with it.
   void log_change(const MeshPart &m, const std::string &text);
+  std::string named(const MeshPart &m, const std::string &text) const;
   void list_meshes();
   void note_mobility(const MeshPart &m);
   void mover_has_changed(const MeshPart &m);
 
+  // What the wall was made from. The constructor sets all of it. Later set_motion(), set_servo() and set_body() change the spec of a mesh,
+  // and set_inputs() the names of inputs.
   Host &host_;
-  WallSpec spec_;    // motions change later
+  WallSpec spec_;
   LawTable laws_;    // of the spec
   WallBackend backend_;
-  // The time of the spheres. It differs from the host's time in a run that continues from a saved state, if the host's time begins again.
-  StepClock clock_;
-  Real pressure_unit_;             // of inputs
-  std::deque<MeshPart> meshes_;    // where each stays; there is one at least
-  // Lists of meshes, in the order of the meshes. A mesh that has nothing to do in a step is in none.
-  std::vector<MeshPart *> placed_;      // that are, or may be, away from where their file has them
-  std::vector<MeshPart *> moving_;      // that may move, or whose surface may, in the next step
-  std::vector<MeshPart *> changing_;    // that change their shape
-  std::vector<MeshPart *> bodies_, servos_;
-  std::vector<MeshPart *> recorded_;    // whose loads are recorded
-  std::vector<MeshPart *>
-      with_energy_records_;                // whose energy and impacts are recorded by triangle
-  std::vector<MeshNodes *> with_nodes_;    // whose nodes move; always the same meshes
-  EngineInput engine_input_;
-  BodyCoats coats_;
-  DeviceChoice device_;
-  bool is_set_up_ = false;    // the last step set a run up
-  std::unique_ptr<WallEngine> engine_;
-  bool engine_moves_ = false, engine_contacts_ = false;    // what its laws are compiled for
-  bool reads_loads_ = false;    // does each step read contacts for loads or wear?
-  bool virial_ = false;         // may be asked for in this run
 
+  // The time of the spheres, which begin() advances. It differs from the host's time in a run that continues from a saved state, if the
+  // host's time begins again.
+  StepClock clock_;
+  // The unit of pressures in inputs, from the constructor.
+  Real pressure_unit_;
+
+  // The meshes, at least one, from the constructor. They stay where they are in memory: the lists below point to them.
+  std::deque<MeshPart> meshes_;
+
+  // Lists of meshes that have something to do in a step, in the order of the meshes. The constructor makes them, and mover_has_changed()
+  // makes them again. The first three say where meshes are; begin() and submit() read them.
+  std::vector<MeshPart *> placed_;    // are, or may be, away from where their file has them
+  // May move, or their surface may, as of a conveyor, in the next step; finish() drops those that have come to rest.
+  std::vector<MeshPart *> moving_;
+  std::vector<MeshPart *> changing_;    // change their shape
+
+  // Two lists of meshes that the sums of contacts drive.
+  std::vector<MeshPart *> bodies_, servos_;
+
+  // Two lists of meshes for which finish() records by triangle: loads; energy and impacts.
+  std::vector<MeshPart *> recorded_, with_energy_records_;
+
+  // The nodes of the meshes whose nodes move. Only the constructor sets this list.
+  std::vector<MeshNodes *> with_nodes_;
+
+  // The coats of bodies. The constructor makes them, and finish() steps them.
+  BodyCoats coats_;
+
+  // The engine, and what decides its settings and its device. make_engine() makes an engine in the constructor, and in begin() if
+  // settle() finds that another one is due.
+  EngineInput engine_input_;
+  DeviceChoice device_;
+  std::unique_ptr<WallEngine> engine_;
+
+  // What make_engine() notes of the engine. settle() reads whether its laws are compiled for meshes that move, and for contacts that are
+  // asked for. submit() reads whether each step reads contacts for loads or wear.
+  bool engine_moves_ = false, engine_contacts_ = false;
+  bool reads_loads_ = false;
+
+  // The history of contacts: with the engine in a step, and on the host where spheres move.
   HistoryExchange history_;
+
+  // Sums over contacts. totals_ are those of the last step; finish() adds each step to the means and energies. Outputs read all of them.
   StepTotals totals_;
   MeanLoads means_;
-  LoadRecorder loads_;
   EnergyBooks energy_;
+
+  // Sums by triangle, to which finish() adds each step, and the files that have them. write_due_files() writes the files.
+  LoadRecorder loads_;
   EnergyRecorder records_;
   WallFiles files_;
+
+  // What the log tells of a run. Steps add to it, and end_run() logs it.
   OverlapMonitor overlaps_;
   SearchReport search_;
-  Real deepest_overlap_ = 0;
   TimeReport times_;
+  // The deepest overlap (length) since begin_run(), of what poll_diagnostics() has read.
+  Real deepest_overlap_ = 0;
+
+  // Checks of the timestep, of snapshots of a replay, and of meshes in the box, mostly in begin().
   TimestepCheck timestep_;
   SnapshotCheck snapshots_;
   BoxChecks box_checks_;
+
+  // The grids of the meshes, which begin() makes fit the spheres and the box.
   GridManager grids_;
+  // Does the work of save() and restore().
   StateKeeper keeper_;
 
-  StepInput input_;                           // of the last begin()
-  std::vector<std::vector<Vec3>> receded_;    // see StepSettings; empty: no mesh has moved so
-  std::vector<Pose> poses_;                   // of the meshes in the last step that was finished
-  bool has_begun_ = false;                    // a step was begun
-  bool is_running_ = false;                   // a step was begun, and no run has ended since
-  std::optional<InputError> failure_;    // of this process in the last step, if there are others
-  bool continued_ = false;               // from a saved state
-  bool springs_told_ = false;
-  bool points_warned_ = false;
-  SphereRange range_;    // for gains of servos and the timestep of bodies
+  // What the host said of the step at begin(). All functions read it until the next begin().
+  StepInput input_;
+  // How far wear has moved the vertices of each mesh in this step: see StepSettings. change_surfaces() sets it, finish() clears it.
+  // Empty: no vertex has moved so.
+  std::vector<std::vector<Vec3>> receded_;
+  // Where the meshes were in the last step that was finished. finish() sets it, for the sums of that step.
+  std::vector<Pose> poses_;
+  // The error of this process in this step, if there are other processes. guard() keeps it, and finish() throws it.
+  std::optional<InputError> failure_;
+
+  // How far the wall is in its runs. begin() sets all three.
+  bool has_begun_ = false;     // a step was begun
+  bool is_running_ = false;    // a step was begun, and end_run() has not been called since
+  bool is_set_up_ = false;     // the last step set a run up: the next begin() may choose a device
+  // Whether add_virial() may be called in this run. begin_run() sets it, and the next engine keeps contacts for it.
+  bool virial_ = false;
+
+  // Whether restore() was called. Then steps do not warn of springs that begin at 0, nor of spheres that were there before.
+  bool continued_ = false;
+  // Messages that the log has had; it has each only once.
+  bool springs_told_ = false;     // springs begin at 0
+  bool points_warned_ = false;    // all spheres have radius 0
+
+  // The range of sphere sizes, for gains of servos and the timestep of bodies. begin() sets it if spheres may have come, or if it is not
+  // known; set_servo() makes it unknown.
+  SphereRange range_;
   bool range_is_known_ = false;
-  Real largest_within_ =
-      0;    // radius of the largest ball that fits in a grain, as of the last check (length)
+  // The radius (length) of the largest ball that fits in a grain. look_at_spheres() sets it; begin() compares how far meshes move with it.
+  Real largest_within_ = 0;
 };
 
 }    // namespace lsdcd
