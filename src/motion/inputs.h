@@ -15,7 +15,7 @@ using InputNames = std::vector<std::string>;
 
 constexpr int kNoInput = -1;    // the number is fixed
 
-// The number of the input with this name, which is added where it is new.
+// Returns the number of the input with this name, which is added if it is new.
 inline int number_of_input(InputNames &inputs, const std::string &name)
 {
   const auto number = std::find(inputs.begin(), inputs.end(), name) - inputs.begin();

@@ -50,7 +50,7 @@ struct MotionTerm {
   TableOptions table_options;
   std::shared_ptr<const MotionTable> table;
 
-  // About the axis, if at all?
+  // Returns whether this kind of term turns the mesh about the axis. A table may turn it, too: see MotionTable.
   bool turns() const
   {
     return kind == MotionKind::rotate || kind == MotionKind::transrot ||
@@ -64,12 +64,12 @@ struct MotionTerm {
   bool adds_up(int d) const { return input[d] == kNoInput && input[3 + d] != kNoInput; }
 };
 
-// A direction that is not zero, as a unit vector; (0, 0, a) becomes exactly (0, 0, 1).
+// Returns a direction that is not zero as a unit vector; (0, 0, a) becomes exactly (0, 0, 1).
 Vec3 unit_vector(const Vec3 &a);
 
 class RigidMotion {
  public:
-  // The pose that the terms act on; its velocities are left out.
+  // Sets the pose that the terms act on, without its velocities.
   void begin_from(const Pose &pose);
   const Pose &start() const { return start_; }
 
@@ -78,26 +78,26 @@ class RigidMotion {
     terms_.push_back(term);
     stopped_.clear();
   }
-  // The mesh stays where start() has it.
+  // Ends all terms, so that the mesh stays where start() has it.
   void stop();
-  // The terms that stop() has ended, until others are added.
+  // Returns the terms that stop() has ended; none once others are added.
   const std::vector<MotionTerm> &stopped() const { return stopped_; }
   std::vector<MotionTerm> &terms() { return terms_; }
   const std::vector<MotionTerm> &terms() const { return terms_; }
 
-  // It acts on the result of all terms.
+  // Returns the servo, which acts on the result of all terms.
   Servo &servo() { return servo_; }
   const Servo &servo() const { return servo_; }
 
-  // In place of terms and servo: the pose that the program gives, until it gives the next one.
+  // Lets the program pose the mesh, in place of terms and servo. Each pose that it gives to set_pose() holds until the next one.
   void begin_posed() { is_posed_ = true; }
   void set_pose(const Pose &pose) { posed_ = pose; }
   bool is_posed() const { return is_posed_; }
 
   bool moves() const { return !terms_.empty(); }
-  // Returns whether it may move the mesh: a motion that was stopped, or whose servo was taken away, does not.
+  // Returns whether the motion may move the mesh: not if it was stopped, or if its servo was taken away.
   bool acts() const { return moves() || (servo_.present && !servo_.holds) || is_posed_; }
-  // false: the mesh is as its file has it, and never moved
+  // Returns false if the mesh is where its file has it, and never moved.
   bool any() const
   {
     return moves() || servo_.present || start_.placed || is_posed_ || !stopped_.empty();
@@ -107,13 +107,13 @@ class RigidMotion {
   // exact after 1e9 steps as after one. After a whole number of periods a term gives the bits that it began with. A time
   // that differs from such a number only by rounding counts as that number.
   Pose terms_at(Time t) const;
-  // The pose at time t since the terms began, with the servo where it is now.
+  // Returns the pose at time t since the terms began, with the servo where it is now.
   Pose pose_at(Time t) const;
 
-  // With those of tables from time 0 to their last row. 0: no term has one.
+  // Returns the longest period of the terms; that of a table is the time of its last row. 0: no term has one.
   Real longest_period() const;
 
-  // Does it leave places along this unit vector as they are, and turn about nothing but it?
+  // Returns whether the mesh is always where its file has it along this unit vector, and turns about no other axis.
   bool keeps(const Vec3 &direction) const;
 
  private:
@@ -124,7 +124,7 @@ class RigidMotion {
   Pose posed_;
 };
 
-// Returns whether they are the same at all times, from the same start. Inputs are the same where their names are.
+// Return whether two motions, or two servos, are the same at all times from the same start. Inputs are the same if their names are.
 bool are_same(const std::vector<MotionTerm> &a, const InputNames &inputs_of_a,
               const std::vector<MotionTerm> &b, const InputNames &inputs_of_b);
 bool are_same(const Servo &a, const InputNames &inputs_of_a, const Servo &b,
@@ -132,8 +132,7 @@ bool are_same(const Servo &a, const InputNames &inputs_of_a, const Servo &b,
 
 // Returns the largest distance between the places of a point of this box (in the mesh's frame) in two poses.
 Real farthest_between(const Pose &a, const Pose &b, const Box &box);
-// The pose when this share of the way from a to b is done, at rest: the origin of the mesh goes straight, and it turns
-// evenly.
+// Returns the pose, at rest, after this share of the way from a to b: the origin of the mesh goes straight, and the mesh turns evenly.
 Pose between(const Pose &a, const Pose &b, Real share);
 // Returns the largest speed of a point of this box.
 Real fastest_in(const Pose &pose, const Box &box);

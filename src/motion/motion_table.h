@@ -54,8 +54,8 @@ struct TablePlace {
   Vec3 angular = {0, 0, 0};     // in the frame of the box
 };
 
-// Velocities are the derivative of the same curve. Before its first row and from its last one on the mesh
-// rests, unless the table repeats.
+// The curve through the rows of a table. Velocities are its derivative. Before the first row and from the last one on the mesh rests,
+// unless the table repeats.
 //
 // The spline has continuous accelerations. At the ends its third derivative is continuous one row further in
 // ("not a knot"), or the ends are joined where the table repeats. Its error is of the order of the fourth
@@ -77,9 +77,10 @@ class MotionTable {
   Real end() const { return times_.back(); }
 
   TablePlace at(Time t) const;
-  // Rows, and times in the middle between them.
+  // Returns the times of the rows, and those in the middle between two rows.
   std::vector<Real> typical_times() const;
-  // Do all rows leave places along this unit vector as they are, but for a turn about the axis?
+  // Returns whether no row shifts the mesh along this unit vector, or turns it about another axis. Angles about the axis of the term are
+  // not looked at.
   bool keeps(const Vec3 &direction, Real rounding) const;
 
  private:

@@ -11,15 +11,15 @@ namespace lsdcd {
 struct Pose {
   Vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};    // of the rotation matrix
   Vec3 shift = {0, 0, 0};                             // length; where the mesh's origin is
-  // In the frame of the box: of the mesh's origin, and right-handed.
+  // Velocity of the mesh's origin, and angular velocity (right-handed), both in the frame of the box.
   Vec3 velocity = {0, 0, 0};    // length/time
   Vec3 angular = {0, 0, 0};     // 1/time
-  // The derivatives of these due to turning. Accelerations of a wiggle or a servo are left out.
+  // The derivatives of velocity and angular that are due to turning. Accelerations of a wiggle or a servo are left out.
   Vec3 acceleration = {0, 0, 0};    // length/time^2
   Vec3 spin_up = {0, 0, 0};         // 1/time^2
   bool placed = false;              // false: the mesh is where its file puts it, and stays there
 
-  // Vectors, from one frame to the other.
+  // Turn a vector from one frame to the other.
   LSDCD_FN Vec3 turn_to_box(const Vec3 &a) const
   {
     return placed ? Vec3{dot(row[0], a), dot(row[1], a), dot(row[2], a)} : a;
@@ -28,7 +28,7 @@ struct Pose {
   {
     return placed ? a.x * row[0] + a.y * row[1] + a.z * row[2] : a;
   }
-  // Points.
+  // Transform a point from one frame to the other.
   LSDCD_FN Vec3 to_box(const Vec3 &x) const { return placed ? turn_to_box(x) + shift : x; }
   LSDCD_FN Vec3 to_mesh(const Vec3 &x) const { return placed ? turn_to_mesh(x - shift) : x; }
 
@@ -40,14 +40,14 @@ struct Pose {
     return pose;
   }
 
-  // Velocity of the point x of the mesh. Both are in the mesh's frame.
+  // Returns the velocity of the point x of the mesh, both in the mesh's frame.
   LSDCD_FN Vec3 velocity_in_mesh(const Vec3 &x) const
   {
     return turn_to_mesh(velocity) + cross(turn_to_mesh(angular), x);
   }
 };
 
-// Returns whether they are the same place of a mesh, whatever their velocities.
+// Returns whether two poses have the mesh at the same place, whatever their velocities.
 inline bool is_same_place(const Pose &a, const Pose &b)
 {
   return a.row[0] == b.row[0] && a.row[1] == b.row[1] && a.row[2] == b.row[2] && a.shift == b.shift;

@@ -12,7 +12,7 @@
 
 namespace lsdcd {
 
-// Numbers are a force, a length and a velocity or, if it turns, a torque, an angle and its velocity.
+// Numbers of a servo are a force, a length and a velocity or, if it turns the mesh, a torque, an angle and its velocity.
 struct Servo {
   bool present = false;
   bool holds = false;    // no longer moves, and keeps its position
@@ -25,10 +25,10 @@ struct Servo {
   Real max_speed = 0;                    // velocity
   Real lo = -HUGE_VAL, hi = HUGE_VAL;    // of the position
 
-  // Added up from step to step.
+  // The state, which is added up from step to step.
   Real position = 0, velocity = 0;
 
-  // Does it move along or about the same line?
+  // Returns whether both servos move a mesh along the same line, or turn it about the same line.
   bool has_line_of(const Servo &other) const
   {
     return present == other.present && turns == other.turns && axis == other.axis &&
@@ -41,15 +41,14 @@ struct Servo {
     return 0 - dot(axis, turns ? torque - cross(point, force) : force);    // none: 0, not -0
   }
 
-  // Moves it for a time dt, after a step with this push. A push below the target moves it forward,
-  // which makes the push grow. Returns whether a limit has stopped it.
+  // Moves the servo for a time dt, after a step with this push. A push below the target moves the servo forward, which makes the push grow.
+  // Returns whether a limit has stopped it.
   bool advance(Real push, Real gain, Real dt);
 };
 
-// A gain (velocity per push) with which the loop of a servo and its contacts is stable. In a step the
-// push changes by -stiffness dt v and, by damping, by -damping v. With v(n+1) = gain (target - push(n))
-// the loop is stable for gain (stiffness dt + 2 damping) < 2. This is a quarter of that limit, which
-// leaves room for the motion of the spheres (tests/unit/test_servo.cpp).
+// Returns a gain (velocity per push) with which the loop of a servo and its contacts is stable. In a step the push changes by -stiffness dt
+// v and, by damping, by -damping v. With v(n+1) = gain (target - push(n)) the loop is stable for gain (stiffness dt + 2 damping) < 2. The
+// gain is a quarter of that limit, which leaves room for the motion of the spheres (tests/unit/test_servo.cpp).
 Real servo_gain(Real stiffness, Real damping, Real dt);
 
 }    // namespace lsdcd

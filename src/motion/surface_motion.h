@@ -15,8 +15,8 @@ struct SurfaceMotion {
 
   bool moves() const { return norm_sq(velocity) > 0 || norm_sq(angular) > 0; }
 
-  // Velocity of the surface at point p, a time `back` ago, in the plane with the unit normal n. The
-  // part along n is left out: the wall stays where it is.
+  // Returns the velocity of the surface at point p, a time `back` ago, in the plane with the unit normal n. The part along n is left out:
+  // the wall stays where it is.
   LSDCD_FN Vec3 along(const Vec3 &p, const Vec3 &n, Real back) const
   {
     const Vec3 turning = cross(angular, p - centre);
