@@ -29,18 +29,19 @@ struct Contact {
   bool update;                    // false: springs act but do not move (setup)
 };
 
-// A contact of the spheres i and j. It is sphere i's as if j were the wall: the normal points from j to i, velocities are
-// those of i less those of j, forces and torques are on i. `radius` and `mass` are the reduced ones, Ri Rj/(Ri + Rj) and
-// mi mj/(mi + mj). What a contact keeps has not been turned with the normal: the law does so.
+// A contact of the spheres i and j, as sphere i sees it if j is taken for the wall: the normal points from j to i, velocities are those of
+// i less those of j, forces and torques are on i. `radius` and `mass` are the reduced ones, Ri Rj/(Ri + Rj) and mi mj/(mi + mj). The law
+// itself turns what a contact keeps with the normal.
 struct PairContact : Contact {
   static constexpr bool kPair = true;
   Real radius_i, radius_j, mass_i, mass_j;
 };
 
-// A component of a kept vector along the normal below this share of what limits it is left as it is (LAMMPS).
+// A kept vector is turned only if its component along the normal is more than this share of its limit (as in LAMMPS).
 constexpr Real kTurnFrom = 1e-10;
 
-// Turns a vector that a pair keeps into the tangent plane; the length stays. `stiff`: what makes a force of it.
+// Returns a vector that a pair keeps, turned into the tangent plane; the length stays. `stiff`: the factor that makes a force of the
+// vector; `limit`: that of the force.
 LSDCD_FN Vec3 turned_into_plane(const Vec3 &h, const Vec3 &normal, Real stiff, Real limit)
 {
   const Real along = dot(h, normal);
@@ -56,7 +57,7 @@ LSDCD_FN Vec3 in_plane(const Vec3 &h, const Vec3 &normal)
   return h - dot(h, normal) * normal;
 }
 
-// Is a spring of this size beyond its limit? One that was cut in the last step is there in a setup, to rounding.
+// Returns whether the limit cuts a spring of this size. In a setup a spring that was cut in the last step is at the limit, to rounding.
 LSDCD_FN bool is_cut(Real size, Real limit, const Contact &c)
 {
   return c.update ? size > limit : size >= (1 - 1e-9) * limit;

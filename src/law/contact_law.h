@@ -52,44 +52,44 @@ struct ContactLaw {
   Chosen<CohesionModel> cohesion;
 
   bool limit_damping = false;
-  // It acts on grains that may be no spheres, too: a contact with a history keeps the arm of its grain.
+  // The law acts on grains that may be no spheres, too: a contact with a history keeps the arm of its grain.
   bool for_shapes = false;
   // A contact keeps its forces for the next step (KeptForces), in which the energy balance needs them.
   bool keeps_forces = false;
-  // Beside these, KeptAtNodes.
+  // A contact also keeps KeptAtNodes.
   bool keeps_at_nodes = false;
-  // Beside these, KeptLosses, behind all that a contact keeps. Histories with it and without it are of one kind.
+  // A contact also keeps KeptLosses, behind all other numbers. Histories with KeptLosses and without are of one kind.
   bool keeps_losses = false;
-  // A contact without anything to keep keeps that it touched, so that it is known when another one begins.
+  // A contact that keeps nothing else keeps that it touched, so that the next step knows which contacts begin.
   bool keeps_touch = false;
 
   bool is(NormalModel model) const { return normal == model; }
-  // Returns whether it is one of LAMMPS's styles before `granular`. These have formulas of their own.
+  // Returns whether the law is one of LAMMPS's styles before `granular`, which have formulas of their own.
   bool is_classic() const { return damping == DampingModel::classic; }
   bool has_heat() const { return heat.is_on(); }
   bool is_adhesive() const { return facts_of(normal).is_adhesive; }
-  // Does the tangential spring shrink as the contact unloads?
+  // Returns whether the tangential spring shrinks as the contact unloads.
   bool rescales() const { return tangential >= TangentialModel::mindlin_rescale; }
-  // Does friction stretch a spring? Of `granular`.
+  // Returns whether friction stretches a spring, in a law of `granular`.
   bool has_spring() const { return tangential >= TangentialModel::linear_history; }
-  // Is friction that of LIGGGHTS, at the middle of the overlap?
+  // Returns whether friction is that of LIGGGHTS, at the middle of the overlap.
   bool is_at_midpoint() const
   {
     return tangential == TangentialModel::linear_nohistory_liggghts ||
            tangential == TangentialModel::linear_history_liggghts ||
            tangential == TangentialModel::mindlin_liggghts;
   }
-  // Returns whether it has rolling or cohesion beside a classic style, or a sub-model of LIGGGHTS in `granular`. These have
-  // compiled laws of their own.
+  // Returns whether the law has rolling or cohesion beside a classic style, or a sub-model of LIGGGHTS in `granular`. Such laws are
+  // compiled in groups of their own.
   bool is_extended() const
   {
     const bool rolls = rolling.is_on() && (is_classic() || rolling.model != RollingModel::sds);
     return rolls || cohesion.is_on() || is_at_midpoint();
   }
 
-  // Does a contact have a history? With adhesion beyond contact it does: only what touched is held.
+  // Returns whether a contact has a history. With adhesion beyond contact it has one, because only what has touched is held.
   bool has_history() const;
-  // Numbers of a contact's history beside its shear displacement.
+  // Returns how many numbers a contact's history has beside its shear displacement.
   int n_extra() const;
   // Returns which of the numbers of a contact's history change sign where the two spheres of a pair change places: bit k is
   // of the k-th, the shear displacement first, then vectors, then scalars.
@@ -102,9 +102,9 @@ struct ContactLaw {
   Real pull_off() const;
 };
 
-// `hooke`, `hooke/history` and `hertz/history`, without numbers.
+// Returns the law of `hooke`, `hooke/history` or `hertz/history`, without numbers.
 ContactLaw classic_law(NormalModel normal, bool history);
-// `granular` with its default damping and linear_nohistory, without numbers.
+// Returns the law of `granular` with its default damping and linear_nohistory, without numbers.
 ContactLaw granular_law(NormalModel normal);
 
 // Returns the damping, per square root of mass times secant stiffness, that gives the restitution e. tsuji: a fit for

@@ -35,7 +35,7 @@
 
 namespace lsdcd {
 
-// The classic styles.
+// A law of the classic styles.
 template <class Normal, class Damping, class Tangential>
 struct ContactModel {
   static constexpr bool kHistory = Tangential::kHistory;
@@ -48,7 +48,7 @@ struct ContactModel {
   Tangential tangential;
   bool limit_damping;
 
-  // Factor of the stiffnesses: the contact radius, or 1.
+  // Returns the factor of the stiffnesses: the contact radius, or 1.
   LSDCD_FN Real scale(const Contact &c) const
   {
     return Normal::kUsesContactRadius ? elastic.contact_radius(c) : 1;
@@ -66,7 +66,7 @@ struct ContactModel {
     return out;
   }
 
-  // What `out` is made of, which evaluate() has returned; `begun` and `shear`: the spring before and after.
+  // Returns the parts of the force `out` that evaluate() has returned. `begun` and `shear`: the spring before and after.
   template <class C>
   LSDCD_FN ForceParts parts(const C &c, const Vec3 &begun, const Vec3 &shear,
                             const ContactForce &out) const
@@ -79,7 +79,7 @@ struct ContactModel {
       parts.slides = is_below(out.tangential, c.mass * tangential.gamma, c.v_tangent);
     return parts;
   }
-  // Returns the spring of friction in a step, which was `begun` and is `shear`.
+  // Returns the spring of friction in a step. Its displacement was `begun` and is now `shear`.
   template <class C>
   LSDCD_FN SpringPart friction_spring(const C &c, const Vec3 &begun, const Vec3 &shear) const
   {
@@ -147,7 +147,7 @@ struct AddedModel {
     c.overlap = overlap;
     return base.elastic.energy(c, base.scale(c)) + (cohesion.is_on() ? cohesion.energy(c) : 0);
   }
-  // What `out` is made of, which evaluate() has returned; `begun` and `memory`: what is kept before and after.
+  // Returns the parts of the force `out` that evaluate() has returned. `begun` and `memory`: what the contact keeps before and after.
   template <class C>
   LSDCD_FN ForceParts parts(const C &c, const ContactMemory<kExtra> &begun,
                             const ContactMemory<kExtra> &memory, const FullForce &out) const
@@ -263,7 +263,7 @@ struct GranularModel {
       if (cohesion.is_on() && overlap > 0) held += cohesion.energy(c);
     return held;
   }
-  // What `out` is made of, which evaluate() has returned; `begun` and `memory`: what is kept before and after.
+  // Returns the parts of the force `out` that evaluate() has returned. `begun` and `memory`: what the contact keeps before and after.
   template <class C>
   LSDCD_FN ForceParts parts(const C &c, const ContactMemory<kExtra> &begun,
                             const ContactMemory<kExtra> &memory, const FullForce &out) const

@@ -13,8 +13,8 @@ struct ContactSlope {
   Real stiffness = 0;    // force/length
   Real damping = 0;      // force/velocity
 };
-// `radius`: of a sphere, or of the sphere around a grain where the law is for shapes. Then the bound is of a flat side, too,
-// whose contact is as wide as the grain.
+// Returns bounds for one contact. `radius`: that of a sphere, or of the sphere around a grain if the law is for shapes. Then the bounds
+// also hold for a flat side, whose contact is as wide as the grain.
 ContactSlope contact_slope(const ContactLaw &law, Real overlap, Real radius, Real mass);
 
 // Bounds of the change of one contact's force along the normal, and in the plane, where it is 0 without friction.
@@ -23,7 +23,7 @@ struct ContactSlopes {
 };
 ContactSlopes contact_slopes(const ContactLaw &law, Real overlap, Real radius, Real mass);
 
-// Stiffness of the spring that resists rolling, torque/angle; 0: there is none.
+// Returns the stiffness of the spring that resists rolling, torque/angle; 0: there is none.
 Real rolling_stiffness(const ContactLaw &law, Real overlap, Real radius);
 
 }    // namespace lsdcd

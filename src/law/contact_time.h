@@ -8,16 +8,16 @@
 
 namespace lsdcd {
 
-// The fix warns if a contact lasts fewer steps: they do not resolve its force.
+// The fix warns if a contact lasts fewer steps, which do not resolve its force.
 constexpr Real kStepsPerContact = 10;
 
-// Does the stiffness grow with the overlap?
+// Returns whether the stiffness grows with the overlap.
 bool stiffens(const ContactLaw &law);
 
-// Duration of a binary contact of a sphere with the wall: half a period of the damped spring (undamped
-// with granular, whose damping may be anything), or that of the spring that resists its rolling, where
-// that is shorter. A spring that stiffens is taken at an overlap of 1 % of the radius. `ftm2v`: force per mass to velocity per time, LAMMPS's number of the units.
-// `inertia`: the moment that rolls, 1/(1/I1 + 1/I2) of two spheres; 0: that of a sphere, 2/5 m R^2.
+// Returns the duration of a binary contact of a sphere with the wall: half a period of the damped spring (undamped with granular, whose
+// damping may be anything) or, if that is shorter, of the spring that resists rolling. A spring that stiffens is taken at an overlap of 1 %
+// of the radius. `ftm2v`: force per mass to velocity per time, LAMMPS's number of the units. `inertia`: the moment that rolls, 1/(1/I1 +
+// 1/I2) of two spheres; 0: that of a sphere, 2/5 m R^2.
 Real contact_time(const ContactLaw &law, Real mass, Real radius, Real ftm2v, Real inertia = 0);
 
 // An elastic Hertz impact of two bodies: `modulus` is their E*, `mass` and `radius` the effective ones

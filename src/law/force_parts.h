@@ -13,16 +13,17 @@ namespace lsdcd {
 
 // A spring in one step. Its force (or torque) is -k ends.
 struct SpringPart {
-  // Its displacement as the step took it over, and now: length (or radians).
+  // The displacement of the spring as the step took it over, and now: length (or radians).
   Vec3 begins = {0, 0, 0}, ends = {0, 0, 0};
   Real k = 0;    // 0: there is none
-  // In a pair: what is kept is projected into the plane of the new normal. Else it is turned into it, and keeps its length.
+  // In a pair: whether the kept displacement is projected into the plane of the new normal. Otherwise it is turned into that plane, and
+  // keeps its length.
   bool projected = false;
 
   LSDCD_FN Vec3 force() const { return -k * ends; }
   // Returns what the limit cuts off a path of the contact, of which the spring holds the rest.
   LSDCD_FN Vec3 cut_off(const Vec3 &path) const { return begins + path - ends; }
-  // Is that more than rounding?
+  // Returns whether `cut`, which cut_off() has returned, is more than rounding.
   LSDCD_FN bool is_cut(const Vec3 &cut, const Vec3 &path) const
   {
     constexpr Real kRounding = 1e-9;
@@ -52,19 +53,19 @@ struct KeptForces {
   Real twisting, twisting_spring;            // about it
   Real k_friction, k_rolling, k_twisting;    // stiffnesses of the springs, 0 without
 
-  // Returns which of the numbers change sign where the spheres of a pair change places: the vectors.
+  // Returns which of the numbers change sign if the spheres of a pair change places: the vectors.
   static constexpr unsigned flips() { return 0xfffu << 6; }
 };
 constexpr int kKeptForces = static_cast<int>(sizeof(KeptForces) / sizeof(Real));
 
-// What a contact keeps beside that where nodes of a mesh move: springs turn with their feature, and these forces do not.
+// What a contact keeps in addition to KeptForces if nodes of a mesh move: springs turn with their feature, and KeptForces do not.
 struct KeptAtNodes {
   Vec3 normal;      // of the forces
   Real share[3];    // of the nodes of its feature, which add up to 1
 };
 constexpr int kKeptAtNodes = static_cast<int>(sizeof(KeptAtNodes) / sizeof(Real));
 
-// What a contact keeps beside that where walls list contacts: what it dissipates by each cause, in the order of EnergyRow from
+// What a contact keeps in addition to KeptForces if walls list contacts: what it dissipates by each cause, in the order of EnergyRow from
 // `damping` on.
 constexpr int kLossCauses = 5;
 struct KeptLosses {

@@ -23,11 +23,11 @@ struct LawTable {
   std::vector<int> kind_of_type;    // of atom type t at min(t, size - 1); empty: all are of kind 0
 
   bool is_empty() const { return laws.empty(); }
-  // Laws from one mesh to the next in `laws`.
+  // Returns how many laws of `laws` each mesh has; 0: all meshes have the same.
   int of_mesh() const { return static_cast<int>(laws.size()) > kinds ? kinds : 0; }
 };
 
-// See ContactLaw::pull_off().
+// Returns the largest ContactLaw::pull_off() of a table.
 inline Real largest_pull_off(const LawTable &table)
 {
   Real largest = 0;

@@ -20,13 +20,13 @@ struct LawError : InputError {
 
 // Adds a sub-model to the draft. `given`: a number for each parameter, NaN where it is derived.
 void add_sub_model(const SubModel &row, const std::vector<Real> &given, LawDraft &draft);
-// Can a parameter of this row be derived from what the draft has? mindlin's kt needs E and nu.
+// Returns whether a parameter of this row can be derived from what the draft has: mindlin's kt needs E and nu.
 bool can_derive(const SubModel &row, const LawDraft &draft);
 // Resolves what depends on several sub-models, once all are there. Throws LawError.
 void finish_granular(LawDraft &draft);
 
-// Refuses a law with a dashpot that is a part of the critical one, which gives a restitution, in units in which it is another part.
-// `acceleration`: of a mass of 1 by a force of 1, in units of velocity/time. Throws LawError.
+// Throws LawError if the law has a dashpot that is given as a part of the critical one, as by a restitution, and if it would be another
+// part in these units. `acceleration`: that of a mass of 1 by a force of 1, in units of velocity/time.
 void check_dashpots(const ContactLaw &law, Real acceleration);
 
 }    // namespace lsdcd

@@ -14,7 +14,7 @@
 
 namespace lsdcd {
 
-// The classic styles: calls make(law).
+// Calls make(law) with the law of a classic style.
 template <class Make>
 auto with_classic_law(const ContactLaw &p, Make make)
 {
@@ -39,7 +39,7 @@ Family family_of(const Chosen<Model> &chosen)
   return family;
 }
 
-// A classic style with rolling or cohesion beside it: calls make(law).
+// Calls make(law) with the law of a classic style that has rolling or cohesion beside it.
 template <class Make>
 auto with_added_law(const ContactLaw &p, const Make &make)
 {
@@ -54,7 +54,7 @@ auto with_added_law(const ContactLaw &p, const Make &make)
   });
 }
 
-// The friction of `granular`.
+// Returns the friction of a law of `granular`.
 inline GranularFriction granular_friction(const ContactLaw &p)
 {
   const TangentialModel t = p.tangential;
@@ -66,7 +66,7 @@ inline GranularFriction granular_friction(const ContactLaw &p)
           p.is_at_midpoint()};
 }
 
-// `granular` with one normal sub-model.
+// Returns the model of a law of `granular` with its normal sub-model.
 template <bool kHistory, GranularSet kSet, class Normal>
 GranularModel<Normal, kHistory, kSet> granular_model(const ContactLaw &p, const Normal &normal)
 {
@@ -112,7 +112,7 @@ inline bool has_more(const ContactLaw &p)
          p.cohesion.is_on();
 }
 
-// Calls make(law) with one of `granular`: that of few sub-models, or that of more where has_more().
+// Calls make(law) with a law of `granular`: of the set kFew, or of kMore if has_more().
 template <GranularSet kFew, GranularSet kMore, class Make>
 auto with_granular_sets(const ContactLaw &p, const Make &make)
 {
@@ -126,22 +126,23 @@ auto with_granular_sets(const ContactLaw &p, const Make &make)
               : make(granular_model<false, kFew>(p, normal));
 }
 
-// `granular` without sub-models of LIGGGHTS: calls make(law) with the smallest law that has all that is asked for.
+// Calls make(law) with the smallest law of `granular` that has all that is asked for, without sub-models of LIGGGHTS.
 template <class Make>
 auto with_granular_law(const ContactLaw &p, const Make &make)
 {
   return with_granular_sets<GranularSet::few, GranularSet::full>(p, make);
 }
 
-// The same with sub-models of LIGGGHTS, which are its friction where there is neither its rolling nor its cohesion.
+// Calls make(law) with the smallest law of `granular` that has all that is asked for, with sub-models of LIGGGHTS: with its friction alone,
+// if the law has neither its rolling nor its cohesion.
 template <class Make>
 auto with_granular_added_law(const ContactLaw &p, const Make &make)
 {
   return with_granular_sets<GranularSet::midpoint, GranularSet::all>(p, make);
 }
 
-// Any law that keeps_forces or keeps_touch: calls make(law) with one of few that are compiled with energy balance and impacts: that of
-// `granular` without sub-models that few scenes use, or one that has all.
+// Calls make(law) for any law that keeps_forces or keeps_touch. Few laws are compiled with energy balance and impacts: for `granular` one
+// without the sub-models that few scenes use, and one that has all.
 template <class Make>
 auto with_energy_law(const ContactLaw &p, const Make &make)
 {

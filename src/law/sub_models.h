@@ -59,22 +59,22 @@ struct SubModel {
 const std::vector<SubModel> &sub_models();
 std::vector<const SubModel *> sub_models(Family family);
 
-// Their names: "none|sds".
+// Returns the names of a family's sub-models: "none|sds".
 std::string names_text(Family family);
 
-// Does a sub-model of this family stand beside a classic style, too, whose formulas are whole? All but `style` are of `granular`.
+// Returns whether sub-models of this family may also stand beside a classic style. All families but `style` are of `granular`.
 bool is_beside_style(Family family);
 
 // Returns the words of a family in scripts: "tangential"; empty for style and normal.
 const char *family_word(Family family);
 
-// Returns the rows of a law, in the order of families. Where two rows have the same formula it has the first.
+// Returns the rows of a law, in the order of families. If two rows have the same formula, it is the first.
 std::vector<const SubModel *> rows_of(const ContactLaw &law);
 
-// "hooke/history, rolling cdt"
+// Returns the sub-models of a law as text: "hooke/history, rolling cdt".
 std::string sub_models_text(const ContactLaw &law);
 
-// "k gamma mu", and "sds k gamma mu"
+// Return the parameters of a row as text, without and with its name: "k gamma mu" and "sds k gamma mu".
 std::string parameters_text(const SubModel &row);
 std::string syntax_of(const SubModel &row);
 

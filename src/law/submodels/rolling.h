@@ -139,7 +139,7 @@ LSDCD_FN Vec3 rolling_velocity(const C &c)
   return ((c.radius - c.overlap / 2) / distance) * rolls;
 }
 
-// Moment of inertia about the contact: 7/5 m R^2 of a sphere at a wall, of two the reduced one.
+// Returns the moment of inertia about the contact: 7/5 m R^2 of a sphere at a wall, of two the reduced one.
 template <class C>
 LSDCD_FN Real rolling_inertia(const C &c)
 {
@@ -246,13 +246,13 @@ struct Rolling {
   {
     return ((model == Models::kModel && Models::kStoresVector) || ...);
   }
-  // Adds to the contact torque and to the energy; nothing if no model is on.
+  // Adds the torque and the energy of the model; adds nothing if no model is on.
   template <class In, class Memory>
   LSDCD_FN void act(const In &in, Memory &m, int at, Vec3 &torque, Real &energy) const
   {
     (act_as<Models>(in, m, at, torque, energy), ...);
   }
-  // Says what the torque of act() is made of; nothing if no model is on.
+  // Sets the parts of the torque that act() adds; sets nothing if no model is on.
   template <class In, class Memory>
   LSDCD_FN void part(const In &in, const Memory &begun, const Memory &m, int at,
                      ForceParts &parts) const
@@ -281,7 +281,7 @@ struct Rolling {
   }
 };
 
-// That of LAMMPS, which walls without a sub-model of LIGGGHTS have in their kernels, and all.
+// The models of kernels: that of LAMMPS, for walls without a sub-model of LIGGGHTS; and all.
 using SpringRolling = Rolling<SdsRolling>;
 using AnyRolling = Rolling<SdsRolling, CdtRolling, Epsd2Rolling, EpsdRolling, Epsd3Rolling>;
 

@@ -25,7 +25,7 @@ enum class TangentialModel {
   mindlin_rescale_force
 };
 
-// Friction that grows with the slip velocity up to `limit`. `viscous`: force time/length.
+// Returns friction that grows with the slip velocity up to `limit`. `viscous`: force time/length.
 LSDCD_FN Vec3 viscous_friction(const Vec3 &v_tangent, Real viscous, Real limit)
 {
   const Real speed = norm(v_tangent);
@@ -34,7 +34,7 @@ LSDCD_FN Vec3 viscous_friction(const Vec3 &v_tangent, Real viscous, Real limit)
   return (-(drag < limit ? drag : limit) / speed) * v_tangent;
 }
 
-// Is this friction less than what viscous_friction() has without a limit?
+// Returns whether this friction is less than what viscous_friction() returns without a limit.
 LSDCD_FN bool is_below(const Vec3 &friction, Real viscous, const Vec3 &v_tangent)
 {
   return norm(friction) < (1 - 1e-12) * viscous * norm(v_tangent);
@@ -99,7 +99,7 @@ struct GranularFriction {
   {
     return viscous_friction(c.v_tangent, xgammat * damping, limit);
   }
-  // a: contact radius. The scalar `at` is that of the last step.
+  // Shrinks the spring as the contact unloads. `a`: the contact radius; the scalar `at` of the memory is that of the last step.
   template <class Memory>
   LSDCD_FN void rescale_spring(Real a, Memory &m, int at) const
   {
@@ -127,7 +127,7 @@ struct GranularFriction {
       m.shear = (-1 / stiff) * (cut - viscous);
     return cut;
   }
-  // The limit cuts the spring first, then the sum. LAMMPS's form leaves the spring that gives the limit
+  // Returns the friction if the limit cuts the spring first, and then the sum. LAMMPS's form leaves the spring that gives the limit
   // together with the dashpot: in fast slip it is longer than the limit allows, or pulls along the slip.
   template <class Memory>
   LSDCD_FN Vec3 cut_apart(Real stiff, const Vec3 &viscous, Real limit, Memory &m) const
@@ -138,7 +138,8 @@ struct GranularFriction {
     const Real size = norm(f);
     return size > limit ? (limit / size) * f : f;
   }
-  // The limit cuts the spring, and the dashpot acts while it does not (LIGGGHTS, `tangential history`).
+  // Returns the friction of LIGGGHTS (`tangential history`): the limit cuts the spring, and the dashpot acts only while the spring is not
+  // cut.
   template <class C, class Memory>
   LSDCD_FN Vec3 sticking_force(const C &c, Real a, Real damping, Real limit, Memory &m) const
   {
