@@ -16,37 +16,34 @@ namespace lsdcd {
 // Errors are InputError, the same on all processes. Warnings of a mesh are shown once.
 class BoxChecks {
  public:
-  // All must outlive it.
+  // All arguments must outlive this object.
   BoxChecks(Host &host, const WallSpec &settings, const std::deque<MeshPart> &meshes) :
       host_(host), settings_(settings), meshes_(meshes), warned_(settings.meshes.size())
   {
   }
 
-  // Before the first grid is built.
+  // The following functions are called before the first grid is built.
 
   // Warns of a mesh that is far larger than the box: its file is probably in different units.
   void check_scale(const MeshPart &m, const PeriodicBox &box) const;
-  // Warns where periodic images act inside the box, which the mesh may not have been drawn for.
+  // Warns if periodic images act inside the box, for which the mesh may not have been drawn.
   void check_periodic(const MeshPart &m, const PeriodicBox &box) const;
-  // Warns where the largest sphere, of this radius, is wider than the box; else of each mesh that is
-  // smaller than the sphere.
+  // Warns if the largest sphere, of this radius, is wider than the box; else of each mesh that is smaller than the sphere.
   void check_radius(const PeriodicBox &box, Real radius) const;
-  // Throws where a mesh at rest is outside of the box.
+  // Throws if a mesh at rest is outside of the box.
   void check_outside(const MeshPart &m, const PeriodicBox &box, Real cutoff) const;
 
-  // After a grid was built.
+  // The following functions are called after a grid was built.
 
-  // Throws where no sphere in the box can touch the mesh; warns of it where the box follows spheres.
+  // Throws if no sphere in the box can touch the mesh; if the box follows spheres, only warns of it.
   void check_within_cutoff(const MeshPart &m, const PeriodicBox &box);
-  // Ends of a mesh that do not meet across a periodic face are warned of. They are an error where they
-  // did meet before the box changed.
+  // Warns of ends of a mesh that do not meet across a periodic face. Throws if they met before the box changed.
   void check_ends(const MeshPart &m, bool box_changed);
 
-  // In each step in which something moves, or the box may; `placed`: the meshes that move or were moved.
+  // The following functions are called in each step in which something moves, or the box may. `placed`: the meshes that move or were moved.
 
-  // Throws where a mesh comes to a periodic face and its images would not move as it does. In the step
-  // that sets a run up it looks ahead over the longest period, and warns of a mesh that will turn out of
-  // the box through a fixed face. Collective.
+  // Throws if a mesh comes to a periodic face and its images would not move as it does. In the step that sets a run up this function looks
+  // ahead over the longest period, and warns of a mesh that will turn out of the box through a fixed face. Collective.
   void check_moving(const std::vector<MeshPart *> &placed, const PeriodicBox &box, Real cutoff,
                     const Step &now);
   // Warns of a mesh that has moved out of the box.
@@ -62,7 +59,7 @@ class BoxChecks {
                       Real depth) const;
   void look_ahead(const MeshPart &m, const PeriodicBox &box, Real cutoff);
 
-  // Where all vertices of a mesh were farther than `depth` (fraction of the box) from both faces that edge k joins, by
+  // A pose and a box in which all vertices of a mesh were farther than `depth` (fraction of the box) from both faces that edge k joins, by
   // `clear` (length) more.
   struct Clear {
     Pose at;

@@ -20,14 +20,14 @@ namespace lsdcd {
 // whose centre is past the wall overlaps by more than 1, with side in or out.
 class OverlapMonitor {
  public:
-  // Both must outlive it.
+  // Both arguments must outlive this object.
   OverlapMonitor(Host &host, const WallSpec &wall) : host_(host), wall_(wall) {}
 
-  // Notes the deepest sphere since the last look. None has sunk that is not deeper than spheres that were put into the
-  // wall, until none is deep in it. Local.
+  // Notes the deepest sphere since the last look. As long as spheres that were put into the wall are deep in it, only a deeper one counts
+  // as sunk. Local.
   void note(const StepDiagnostics &seen, const SpheresOnCpu &spheres);
 
-  // The largest overlap noted on this process that is to be warned of; 0: there is none.
+  // Returns the largest overlap noted on this process that is to be warned of; 0: there is none.
   Real worst() const { return worst_.overlap; }
 
   // Warns of the deepest sphere that sank: past 0.1, past 0.25 and past 0.5 once each, and then of each sphere whose centre
@@ -80,7 +80,7 @@ class OverlapMonitor {
   static constexpr Real kLarge = 0.1;
   static constexpr Real kSharp = 1;
   static constexpr Real kWorse = 1.1;    // times an overlap that was warned of: warned of again
-  // A centre that is so near may be on the other side in the next step.
+  // From this overlap on a centre is so near the wall that it may be on the other side in the next step.
   static constexpr Real kThrough = 0.95;
   static constexpr std::size_t kMostNamed = 10;
   // Where tags have to be fetched from a GPU, only those of deeper spheres are.
@@ -97,7 +97,7 @@ class OverlapMonitor {
   std::vector<std::int64_t> named_;    // tags of spheres whose centres came to the wall
   std::int64_t highest_tag_ = -1;      // of spheres that are not new; -1: before the first look
   Real worst_new_ = kLarge;            // a new sphere that overlaps by more is warned of
-  // On this process: what spheres that were put into the wall still overlap by, until none is deep in it.
+  // On this process: the largest overlap of spheres that were put into the wall, until none is deep in it.
   Real placed_ = 0;
 };
 

@@ -13,7 +13,7 @@ namespace lsdcd {
 
 class SnapshotCheck {
  public:
-  // Both must outlive it.
+  // Both arguments must outlive this object.
   SnapshotCheck(Host &host, const WallSpec &wall) : host_(host), wall_(wall) {}
 
   // Throws InputError if a place, a surface or a mean is not known in this snapshot, and warns once of springs, spins, loads and

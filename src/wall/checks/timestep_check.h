@@ -15,17 +15,17 @@ namespace lsdcd {
 
 class TimestepCheck {
  public:
-  // Both must outlive it. `velocity_unit`: force times time over mass, in the host's unit of velocity.
+  // Host and laws must outlive this object. `velocity_unit`: force times time over mass, in the host's unit of velocity.
   TimestepCheck(Host &host, const LawTable &laws, Real velocity_unit) :
       host_(host), laws_(laws), velocity_unit_(velocity_unit)
   {
   }
 
-  // Sets the largest n.K n of Mobility of the mesh with this number, from 0; 0: it does not give way.
+  // Sets the largest n.K n of Mobility of the mesh with this number, from 0; 0: the mesh does not give way.
   void set_mobility(int mesh, Real mobility);
 
-  // `s` is in memory of the CPU. Warns where `dt` (time) is more than a tenth of the shortest contact time of the spheres, and again
-  // where it is a tenth worse than what was warned of. Collective.
+  // Warns if `dt` (time) is more than a tenth of the shortest contact time of the spheres, and again if it is a tenth worse than what was
+  // warned of. `s` is in memory of the CPU. Collective.
   void check(Real dt, const HostSpheres &s);
 
   // Returns the largest timestep warned of, over the longest that resolves a contact; 1: none.

@@ -18,12 +18,11 @@
 
 namespace lsdcd {
 
-// Every process computes all of its points, so that no message is needed, and the bits do not depend on how many
-// processes there are.
+// Every process computes all points of a coat, so that no message is needed, and the bits do not depend on how many processes there are.
 class BodyCoat {
  public:
-  // `mesh`: the body's; `engine`: the settings of the wall's engine; `force`: as of BodyMover. Host and wall must outlive
-  // it. Throws InputError on all processes. Collective.
+  // `mesh`: the body's; `engine`: the settings of the wall's engine; `force`: as of BodyMover. Host and wall must outlive this object.
+  // Throws InputError on all processes. Collective.
   BodyCoat(Host &host, const WallSpec &wall, int mesh, const MeshGrid &grid, EngineSettings engine,
            Real force);
 
@@ -32,24 +31,24 @@ class BodyCoat {
   std::string text() const;    // line of the log
 
   using FeatureName = HistoryExchange::FeatureName;
-  // Gives the features of its springs the names that `name` gives them: before the grid of a mesh is another one.
+  // Renames the features that springs name, as `name` says. Called before a mesh gets another grid.
   void rename_features(const FeatureName &name);
-  // The grid of a mesh from now on.
+  // Sets the grid of a mesh from now on.
   void set_grid(const MeshPart &m);
 
-  // A step, in which all meshes are where they are now: begin() of all coats, then finish() of all. They throw InputError,
-  // the same on all processes.
+  // The following functions make a step, in which all meshes are where they are now: begin() of all coats, then finish() of all. Both throw
+  // InputError, the same on all processes.
 
-  // Finds the contacts and adds them to the pushes. Throws where a point has gone through a mesh since the step before.
+  // Finds the contacts and adds them to the pushes. Throws if a point has gone through a mesh since the step before.
   void begin(const std::deque<MeshPart> &meshes, const Step &step, CoatPushes &pushes);
-  // Computes the contacts, whose damping hangs on all pushes, and adds them to the loads of each mesh, and what they do with energy where
-  // that is recorded. `receded`: see StepSettings; empty: no mesh has moved so.
+  // Computes the contacts, whose damping hangs on all pushes. Adds them to the loads of each mesh, and what they do with energy to
+  // `energy`, if that is recorded. `receded`: see StepSettings; empty: wear has moved no mesh.
   using Receded = std::vector<std::vector<Vec3>>;
   void finish(const std::deque<MeshPart> &meshes, const Step &step, const CoatPushes &pushes,
               const Receded &receded, std::vector<CoatLoad> &loads, CoatEnergy &energy);
 
-  // Returns what its contacts keep, with the names that `name` gives to features. restore() takes it again, before a
-  // step. The first process warns where it is of another law or another coat.
+  // save() returns what the contacts of the coat keep, with the names that `name` gives to features. restore() takes it back before a step;
+  // the first process warns if it is of another law or another coat.
   std::vector<Real> save(const FeatureName &name);
   void restore(const std::vector<Real> &saved);
 
@@ -90,7 +89,7 @@ class BodyCoat {
   std::vector<Vec3> x_, v_, omega_, force_on_, torque_on_;
   std::vector<Real> radii_, masses_;
   Real heavy_ = 0;    // the mass of points that touch no other body
-  // Of a point with another mesh: the strongest that it has in this step.
+  // The strongest contact that a point has with another mesh in this step.
   struct PointContact {
     int point, other;    // numbers of the wall's mesh
     Vec3 at, normal;     // in the box; to the point
@@ -101,7 +100,7 @@ class BodyCoat {
   bool deep_warned_ = false;
   bool is_as_placed_ = true;      // no step was made
   std::vector<Real> restored_;    // until the first step
-  // These are of each mesh of the engine, in a step.
+  // What each mesh of the engine has in a step.
   std::vector<SurfaceMotion> surfaces_;
   std::vector<Mobility> mobilities_;    // of this body, in their frames
   Receded receded_;                     // read only where a mesh has moved so

@@ -17,12 +17,12 @@ namespace lsdcd {
 // Functions throw InputError, the same on all processes, with a text that names the mesh.
 class MeshMotion {
  public:
-  // The motion of the mesh with this number, from 0. Its motion in `wall` changes with those set later. Host and
-  // wall must outlive it. Its time is 0 at `now`.
+  // Makes the motion of this mesh of the wall, counted from 0, by its spec there, which later motions change. The time of the motion is 0
+  // at `now`. Host and wall must outlive this object.
   MeshMotion(Host &host, WallSpec &wall, int mesh, const Step &now);
 
   const Pose &pose() const { return pose_; }    // in this step
-  // In the step before; in a step that no time has passed to, that of this step.
+  // Returns the pose in the step before or, if no time has passed since then, in this step.
   const Pose &pose_before() const { return has_before_ ? before_ : pose_; }
   const SurfaceMotion &surface_motion() const { return surface_; }    // in this step
 
@@ -30,11 +30,10 @@ class MeshMotion {
   bool has_inputs() const;
   bool takes_differences() const;    // for velocities that no input gives
   bool adds_up() const;              // velocities to displacements that no input gives
-  // Those of the wall's inputs that it reads, by their numbers.
+  // Returns which of the wall's inputs the motion reads, by their numbers.
   std::vector<int> inputs() const;
 
-  // The clock goes on to this step, whose inputs have these values, one for each input of the wall. Returns the
-  // time that has passed.
+  // Moves the clock on to this step, whose inputs have these values, one for each input of the wall. Returns the time that has passed.
   Real advance(const Step &to, const std::vector<Real> &inputs);
   // Takes the values of inputs, which advance() takes in each step.
   void take_inputs(const std::vector<Real> &inputs);
@@ -43,23 +42,22 @@ class MeshMotion {
   Pose pose_in(Time later) const;    // that much time from now
   Pose pose_without_servo() const;
 
-  // The terms of another motion, from where the mesh is; without any it stops. A servo goes on with what it
-  // has added up, but for one that holds when terms come: its position is 0 where the mesh is.
+  // Sets the terms of another motion, which begin where the mesh is; without terms the mesh stops. The servo continues with what it has
+  // added up, except for one that holds when terms come: its position is 0 where the mesh is.
   void set(const RigidMotion &to, const Step &now);
-  // Another servo, from where the mesh is; one that is not present stops it. Along the same line its
-  // position goes on.
+  // Sets another servo, which begins where the mesh is; one that is not present stops the mesh. Along the same line the position continues.
   void set(const Servo &to);
 
-  // Throws where the pose or velocities in a snapshot are not known from its time alone.
+  // Throws if the pose or velocities in a snapshot are not known from its time alone.
   void check_snapshot(const Step &at) const;
 
   // Returns a line for the log; empty: nothing moves. `bounds`: of the mesh in its own frame.
   std::string text(const Box &bounds) const;
 
-  // Returns the state of the motion, for a saved state, which restore() takes: it is the same on all processes. With
-  // the same terms a motion goes on where it was. Others begin where the mesh was, and the first process warns.
+  // Returns the state of the motion for a saved state, the same on all processes. After restore() a motion with the same terms continues
+  // where it was. Other terms begin where the mesh was, and the first process warns.
   MotionState state() const;
-  // Throws where a servo would be outside of its limits.
+  // Throws if restore() would put a servo outside of its limits.
   void check(const MotionState &was) const;
   void restore(const MotionState &was, const Step &now);
 
@@ -68,7 +66,7 @@ class MeshMotion {
   Servo &servo() const { return spec().motion.servo(); }
   std::string named(const std::string &text) const;
   std::string own_text() const;
-  // On the first process; all have the rows then. Collective where there is one that is not read yet.
+  // Reads tables on the first process, and gives all processes their rows. Collective if there is a table that was not read yet.
   void read_tables(std::vector<MotionTerm> &terms) const;
   void begin(const Step &now);
   void check_limits(const Servo &s, Real position) const;

@@ -26,8 +26,8 @@ struct ServoLoad {
 
 class ServoController {
  public:
-  // The servo of the mesh with this number, from 0, which is wall.meshes[mesh].motion.servo(). Host, wall and laws
-  // must outlive it.
+  // Controls the servo of this mesh of the wall, counted from 0: wall.meshes[mesh].motion.servo(). Host, wall and laws must outlive this
+  // object.
   ServoController(Host &host, WallSpec &wall, const LawTable &laws, int mesh) :
       host_(host), wall_(wall), laws_(laws), mesh_(mesh)
   {
@@ -37,11 +37,11 @@ class ServoController {
   // Returns the force or torque with which the mesh pushes the spheres along the servo's axis, or about it.
   Real push(const ServoLoad &load) const { return servo().push(load.force, load.torque); }
 
-  // Moves a servo that acts over the time `dt` > 0 up to this step. Without the servo the mesh is where
-  // `placed` has it. Logs, once for a servo, its gain or that one that is given would not be stable, and that a limit stops it.
+  // Moves a servo that acts over the time `dt` > 0 up to this step. Without the servo the mesh is where `placed` has it. Logs once for each
+  // servo its gain, or that the given gain would not be stable, and that a limit stops the servo.
   void advance(const ServoLoad &load, const Pose &placed, Real dt, std::int64_t step);
 
-  // The log has all lines again of another servo.
+  // Makes the log have these lines once more, for another servo.
   void begin_anew() { gain_logged_ = limit_warned_ = false; }
 
  private:

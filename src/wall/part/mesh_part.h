@@ -13,8 +13,8 @@
 namespace lsdcd {
 
 struct MeshPart {
-  // The mesh with this number of the wall, from 0. Reads its file. `force`: as of Mover. Host, wall and laws must
-  // outlive it. Throws InputError on all processes. Collective.
+  // Makes this mesh of the wall, counted from 0, and reads its file. `force`: as of Mover. Host, wall and laws must outlive this object.
+  // Throws InputError on all processes. Collective.
   MeshPart(Host &host, WallSpec &wall, const LawTable &laws, int index, Real force,
            const Step &now) :
       index(index),
@@ -43,34 +43,34 @@ struct MeshPart {
     return {has.facets, has.edges, has.vertices};
   }
   bool moves() const { return spec.has_nodes || spec.motion.any(); }    // or was moved
-  // Returns whether it stood still in the last step, and does until it is given something that moves it.
+  // Returns whether the mesh stood still in the last step, and does so until something is set that moves it.
   bool is_at_rest() const
   {
     return is_same_place(mover.pose_before(), pose()) && !spec.motion.acts() && !spec.has_nodes &&
            !spec.surface_varies();
   }
-  // Returns how it gives way to pushes where it is now (1/mass).
+  // Returns how the mesh gives way to pushes where it is now (1/mass).
   Mobility mobility() const { return body ? body->mobility() : Mobility(); }
   bool has_coat() const { return spec.body.present && spec.body.coat.present; }
 
   const Pose &pose() const { return mover.pose(); }    // in this step
 
-  // Returns whether a spring may name this feature of it.
+  // Returns whether a spring may name this feature of the mesh.
   bool has(FeatureCode feature) const { return !springs_are_foreign && grid.has(feature); }
 
-  // In its own frame, in this step; null on processes that do not have it (mesh_surface.h).
+  // Returns the mesh in its own frame in this step; null on processes that do not have it (mesh_surface.h).
   const WeldedMesh *mesh() const { return surface->mesh(); }
   ViewOf<StepGrid> view() const { return grid.view(); }    // where its nodes do not move
-  // Of its features; none where its nodes move.
+  // Returns the records of the mesh's features; none if its nodes move.
   MeshFeaturesView records() const { return surface->records(); }
 
   Box bounds(Real past) const;    // in its own frame, and `past` (length) beyond
-  // Does it go, at a pose, to less than `depth` (a part of the box) from one of the faces that edge k of the box joins? Then lo
-  // and hi become from where to where it goes, as parts of the box. Collective.
+  // Returns whether the mesh, at a pose, comes nearer than `depth` (a part of the box) to one of the faces that edge k of the box joins.
+  // Then sets lo and hi to the range that it has along that edge, as parts of the box. Collective.
   bool reaches(const PeriodicBox &box, int k, Real depth, const Pose &at, Real &lo, Real &hi) const;
-  // Returns whether it looks the same from each of its images across the faces that edge k joins.
+  // Returns whether the mesh looks the same from each of its images across the faces that edge k joins.
   bool keeps_edge(const PeriodicBox &box, int k) const;
-  // The box of what can touch it, from its own frame.
+  // Returns the box of what can touch the mesh, as seen from its own frame.
   PeriodicBox effective_box(const PeriodicBox &box) const;
 
  private:

@@ -11,8 +11,8 @@
 
 namespace lsdcd {
 
-// `material`: what a material file filled in, in lines; else empty. `device`: of the engine, with why it
-// is no other. Called by the first process, which has the reports of the meshes.
+// Returns the lines of the log. `material`: what a material file filled in, in lines; else empty. `device`: of the engine, with the reason
+// why it is no other. Called by the first process, which has the reports of the meshes.
 std::string creation_text(const HostNames &names, const WallSpec &settings,
                           const std::deque<MeshPart> &meshes, const BodyCoats &coats,
                           const EngineSettings &engine, const std::string &material,

@@ -23,7 +23,7 @@ class TimeReport {
   {
   }
 
-  // The time from begin(), or from the last end(), counts for the section.
+  // begin() starts the clock. end() counts the time since then, or since the last end(), for the section.
   void begin() { last_ = clock_(); }
   void end(Section section)
   {

@@ -22,20 +22,20 @@ struct MotionState {
   Pose placed;    // in the last step, without the servo
   Pose last;      // with it
   Servo servo;    // its line, position and velocity
-  // That move the mesh or, where `stopped`, that were stopped.
+  // The terms that move the mesh or, if `stopped`, that were stopped.
   std::vector<MotionTerm> terms;
   bool stopped = false;
   InputNames inputs;    // of the terms
-  // Of a mesh that the program poses, in the pose that it got last.
+  // The velocities of a mesh that the program poses, in its last pose.
   Vec3 velocity = {0, 0, 0}, angular = {0, 0, 0};
 
   bool moves() const { return !terms.empty() && !stopped; }
   bool moves_when_posed() const { return norm_sq(velocity) + norm_sq(angular) > 0; }
-  // Was it where a body or the program put it? At rest it would be where it began.
+  // Returns whether the mesh was where a body or the program had put it: at rest it would be where it began.
   bool was_posed() const { return !moves() && !is_same_place(start, placed); }
 };
 
-// What the joint of a body and its stop did in the last step, whatever holds the body from the next one on.
+// What the joint of a body and its stop did in the last step, even if another joint holds the body from the next one on.
 struct JointLoad {
   Wrench reaction;
   Real stop_force = 0;
@@ -73,7 +73,7 @@ struct SurfaceState {
   Real removed = 0, held_back = 0, carried = 0;    // length^3
 };
 
-// By which a mesh is known again: its counts, and a number made of all of it.
+// What a mesh is known by: its counts, and a number made of all of it.
 struct MeshIdentity {
   std::int64_t facets = 0, edges = 0, vertices = 0;
   Real fingerprint = 0;

@@ -12,14 +12,14 @@
 
 namespace lsdcd {
 
-// A text about a mesh, counted from 0, with its number and name where the wall has several.
+// Returns a text about a mesh, counted from 0, with its number and name if the wall has several.
 inline std::string with_mesh_name(const WallSpec &wall, int mesh, const std::string &text)
 {
   if (wall.meshes.size() == 1) return text;
   return "mesh " + std::to_string(mesh + 1) + " '" + wall.meshes[mesh].name + "': " + text;
 }
 
-// A text about what has gone this way (length) in a step, which is more than `most`, so that a sphere may be behind it.
+// Returns a text about what has gone this way (length) in a step, which is more than `most`, so that a sphere may be behind it.
 inline std::string passed_text(const std::string &what, Real way, const Step &step,
                                const std::string &most)
 {

@@ -21,15 +21,15 @@ struct RunFile {
 // Returns the files of a wall's meshes, by name; none is opened.
 std::vector<RunFile> files_of(const WallSpec &settings);
 
-// Would writing one of these in a step after `now` replace the other? Different spellings of a folder
-// are the same. A link is replaced, not the file that it leads to.
+// Returns whether writing one of these files in a step after `now` would replace the other. Different spellings of a folder are the same. A
+// link is replaced, not the file that it leads to.
 bool are_one_file(const RunFile &a, const RunFile &b, long long now);
 
-// Throws InputError where writing `file` in a step after `now` would replace the other one, which `owner` reads or
-// writes. A grid cache replaces other caches only.
+// Throws InputError if writing `file` in a step after `now` would replace the other one, which `owner` reads or writes. A grid cache
+// replaces other caches only.
 void check_apart(const RunFile &file, const RunFile &other, const std::string &owner,
                  long long now);
-// Throws InputError where writing one of these would replace another one of them.
+// Throws InputError if writing one of these files would replace another one of them.
 void check_apart(const std::vector<RunFile> &files, const std::string &owner, long long now);
 
 }    // namespace lsdcd

@@ -11,19 +11,19 @@
 
 namespace lsdcd {
 
-// "scale 0.001, move 0 0 1"; empty: the mesh is where its file has it.
+// Returns a placement as text, "scale 0.001, move 0 0 1"; empty: the mesh is where its file has it.
 std::string placement_text(const Placement &placement);
 
-// "rotate 0 0 0 0 0 1 2, linear 1 0 0": kinds with their numbers; an input by its name. Empty: none.
+// Returns the terms of a motion as text, "rotate 0 0 0 0 0 1 2, linear 1 0 0", with inputs by their names; empty: there are none.
 std::string motion_text(const std::vector<MotionTerm> &terms, const InputNames &inputs);
 
-// "force z 100 vmax 0.1"; empty: none.
+// Returns a servo as text, "force z 100 vmax 0.1"; empty: it is not present.
 std::string servo_text(const Servo &servo, const InputNames &inputs);
 
-// "2", "1*3", "2*"; empty: all.
+// Returns the types of a row as text, "2", "1*3" or "2*"; empty: all.
 std::string types_text(const LawOfTypes &row);
 
-// "hooke/history", "granular hertz ...": what the log calls the law.
+// Returns what the log calls the law of a row: "hooke/history", "granular hertz ...".
 std::string law_name(const LawOfTypes &row);
 
 }    // namespace lsdcd

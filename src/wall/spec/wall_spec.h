@@ -42,16 +42,16 @@ struct MeshSpec {
   // A file, which one process reads, or a mesh in its own frame. Only the first process needs it.
   std::string file;
   std::shared_ptr<const WeldedMesh> mesh;    // null: that of the file
-  // Of such a mesh: which vertex of it each vertex of the program became, kNoVertex: none.
+  // Which vertex of `mesh` each vertex of the program became; kNoVertex: none.
   std::shared_ptr<const std::vector<int>> welded_vertex;
   Placement placement;    // from the frame of the file, or of the mesh, to the box
   Real weld = -1;         // length; < 0: cracks (mesh/cracks.h)
 
-  // In place of the wall's: of the rows with a type the last one. Empty: the wall's.
+  // Laws in place of the wall's: that of a type is the last row that has the type. Empty: the wall's.
   std::vector<LawOfTypes> laws;
   RigidMotion motion;
   BodySpec body;    // in place of terms and servo of the motion
-  // In place of the motion, too: its welded vertices are nodes, each where the program puts it.
+  // The welded vertices are nodes, each of which is where the program puts it, in place of the motion.
   bool has_nodes = false;
   std::string
       node_group;    // of the host's particles that are its nodes; empty: set_nodes() has them from elsewhere
@@ -111,41 +111,41 @@ struct WallSpec {
 
   // Returns the sub-models, which all laws have.
   const ContactLaw &law() const { return laws.front().law; }
-  // Numbers of a sphere in the contacts array; 0 without it.
+  // Returns how many numbers a sphere has in the contacts array; 0: there is none.
   int contact_columns() const;
   bool wears() const { return wear.model != WearModel::none; }
-  // Does wear move its vertices?
+  // Returns whether wear moves the vertices of a mesh.
   bool recedes(const MeshSpec &mesh) const
   {
     return wears() && wear_deform.every > 0 && mesh.wear_factor > 0;
   }
   bool has_loads(const MeshSpec &mesh) const { return wears() || mesh.fields.every > 0; }
   bool has_loads() const;
-  // Is there a place for what becomes of energy at each triangle of the mesh?
+  // Returns whether there is a place for what becomes of energy at each triangle of the mesh.
   bool has_energy_places(const MeshSpec &mesh) const
   {
     return mesh.fields.every > 0 && (energy || impact_speed > 0);
   }
-  // Is what contacts dissipate wanted by triangle?
+  // Returns whether what contacts dissipate is wanted by triangle.
   bool has_energy_places() const;
   bool records_energy() const { return has_energy_places() || impact_speed > 0; }
   bool has_bodies() const;
   bool has_nodes() const;
 };
 
-// Cohesion of 0 everywhere costs nothing: no law has it then.
+// Leaves cohesion out of all laws if it is 0 in all of them, so that it costs nothing.
 void leave_out_zero_cohesion(WallSpec &wall);
 
 // Returns the law of each mesh and type of sphere.
 LawTable law_table(const WallSpec &wall);
 
-// The law of a mesh with what has no type: its own of all types, or the wall's.
+// Returns the law of a mesh with what has no type: the law of all types of the mesh, or of the wall.
 const ContactLaw &law_of_all_types(const WallSpec &wall, int mesh);
 
-// Are the torques of all meshes about the same point in each step?
+// Returns whether the torques of all meshes are about the same point in each step.
 bool torques_share_a_point(const WallSpec &wall);
 
-// Are these the same triangles, which are always at the same place?
+// Returns whether two meshes have the same triangles, always at the same place.
 bool are_one_mesh(const WallSpec &wall, const MeshSpec &mesh, const WallSpec &other_wall,
                   const MeshSpec &other);
 

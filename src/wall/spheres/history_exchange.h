@@ -15,11 +15,10 @@
 
 namespace lsdcd {
 
-// Spheres are counted from 0, in the order of the host. Where the law keeps nothing, nothing is moved,
-// packed or asked of the engine.
+// Spheres are counted from 0, in the order of the host. If the law keeps nothing, nothing is moved, packed or asked of the engine.
 class HistoryExchange {
  public:
-  // Both must outlive it. The law says which numbers a contact stores.
+  // Both arguments must outlive this object. The law says which numbers a contact stores.
   HistoryExchange(Host &host, const ContactLaw &law) :
       host_(host), law_(law), springs_(law.n_extra())
   {
@@ -27,15 +26,14 @@ class HistoryExchange {
 
   bool is_on() const { return law_.has_history(); }
 
-  // The engine of the steps from now on. History of another engine must be on the host. `in_place`: will in_engine()
-  // be asked for?
+  // Sets the engine of the steps from now on. History of another engine must be on the host. `in_place`: in_engine() will be called.
   void set_engine(WallEngine &engine, bool in_place = false)
   {
     engine_ = &engine;
     in_place_ = in_place;
   }
 
-  // Room for `room` spheres from now on, wherever the history is.
+  // Makes room for `room` spheres from now on, wherever the history is.
   void grow(int room);
   int room() const { return room_; }
   // Returns the history of this process's spheres, on the host from now on.
@@ -48,23 +46,23 @@ class HistoryExchange {
   // computes: it packs, unpacks and sorts the history there.
   ResidentRows &in_engine(int n);
   bool is_with_engine() const { return with_engine_; }
-  // The engine has the history of the first n spheres of the host.
+  // Notes that the engine has the history of the first n spheres of the host.
   void set_spheres_of_engine(int n) { n_with_engine_ = n; }
   int spheres_of_engine() const { return n_with_engine_; }
 
   int numbers_per_contact() const { return springs_.row_size(); }
-  // Numbers that one sphere has in a message or a file, at most.
+  // Returns how many numbers one sphere has in a message or a file at most.
   int max_packed_size() const;
 
   // The name that a feature of a mesh gets.
   using FeatureName = std::function<FeatureCode(int mesh, FeatureCode feature)>;
   void rename_features(const FeatureName &name);    // on the host
 
-  // Saved states; with the history on the host. They tell the kind of history that they have
-  // (ContactLaw::history_kind()).
-  // Features are written with the names that `name` gives them. Returns the numbers written.
+  // The following functions are for saved states, with the history on the host. A saved state tells its kind of history
+  // (ContactLaw::history_kind()). pack_saved() writes features with the names that `name` gives them, and returns how many numbers it
+  // wrote.
   int pack_saved(int i, double *buffer, const FeatureName &name) const;
-  // Before the first sphere is unpacked.
+  // Sets the kind of history of the saved state. Called before the first sphere is unpacked.
   void set_kind_of_file(double kind)
   {
     kind_is_ours_ = kind == law_.history_kind();
@@ -73,9 +71,9 @@ class HistoryExchange {
   }
   // Returns whether `size` numbers are what pack_saved() can have written, for any law.
   static bool is_sound(const double *buffer, int size);
-  // `size` numbers of one sphere. Numbers that another law wrote are not read, but counted.
+  // Reads the `size` numbers of one sphere. Spheres with numbers of another law are not read, but counted.
   void unpack_saved(int i, const double *buffer, int size);
-  // Drops the history of those of the first n spheres that name a feature which is not there. Returns how many lost theirs. Local.
+  // Drops the history of those of the first n spheres that name a feature which is not there. Returns how many spheres lost it. Local.
   int drop_unknown(int n, const std::function<bool(const Spring &)> &is_there);
   // Drops the history of spheres that name a feature which is not there, and warns of these and of those
   // of another law. Checks the first n spheres, once. Collective.

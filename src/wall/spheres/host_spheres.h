@@ -36,7 +36,7 @@ struct HostSpheres : Spheres {
   bool group_changes = false;     // spheres may join and leave it between steps
 
   bool is_in_group(int i) const { return !mask || (mask[i] & group_bit); }
-  // Now, or it may be before the host says so.
+  // Returns whether sphere i is in the group, or may join it before the host says so.
   bool may_be_in_group(int i) const { return group_changes || is_in_group(i); }
   std::int64_t highest_tag() const
   {
@@ -44,7 +44,7 @@ struct HostSpheres : Spheres {
     for (int i = 0; i < n; i++) highest = std::max(highest, tag[i]);
     return highest;
   }
-  // Length; 0: this process has no such sphere.
+  // Returns the radius of the sphere with this ID (length); 0: this process has no such sphere.
   Real radius_of(std::int64_t id) const
   {
     for (int i = 0; id > 0 && i < n; i++)
@@ -56,10 +56,10 @@ struct HostSpheres : Spheres {
 // Arrays that are wanted in memory of the CPU: positions, radii, masses, groups, types and tags, or tags alone.
 enum class CpuArrays { all, tags };
 
-// Spheres of a host in other memory than the CPU's, and the same there. Empty: they are there.
+// Returns the spheres of a host, whose arrays are in other memory, with arrays in memory of the CPU. Empty: they are there already.
 using ToCpu = std::function<HostSpheres(const HostSpheres &, CpuArrays)>;
 
-// Spheres that are brought to memory of the CPU when they are asked for. `spheres` must outlive it.
+// Spheres that are brought to memory of the CPU when they are asked for. `spheres` must outlive this object.
 class SpheresOnCpu {
  public:
   explicit SpheresOnCpu(const HostSpheres &spheres, ToCpu to_cpu = {}) :

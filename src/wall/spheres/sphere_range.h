@@ -15,10 +15,10 @@ struct SphereRange {
   Real mass = 0, lightest = 0;    // the largest and smallest; 0: there is none
 };
 
-// Returns that of all processes. Collective.
+// Returns the range of the spheres of all processes. Collective.
 SphereRange range_of(Host &host, const SpheresOnCpu &spheres);
 
-// Warns where all spheres of the group are points, on which the wall does not act. Returns whether it did. Collective.
+// Warns if all spheres of the group are points, on which the wall does not act. Returns whether it has warned. Collective.
 bool warn_of_points(Host &host, const SpheresOnCpu &spheres);
 
 }    // namespace lsdcd

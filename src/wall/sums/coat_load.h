@@ -44,7 +44,7 @@ class CoatPushes {
   explicit CoatPushes(std::size_t meshes) : meshes_(meshes), all_(meshes * meshes) {}
 
   const Push &on(int mesh, int by) const { return all_[mesh * meshes_ + by]; }
-  // A contact at the place x, whose unit normal points from one mesh to the other.
+  // Adds a contact at the place x, whose unit normal points from one mesh to the other.
   void add(int from, int to, const Vec3 &x, const Vec3 &normal)
   {
     add_to(all_[to * meshes_ + from], x, normal);

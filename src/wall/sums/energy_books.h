@@ -17,7 +17,7 @@ namespace lsdcd {
 // Meshes are counted from 0. All is 0 where spec.energy is not set.
 class EnergyBooks {
  public:
-  // The host must outlive it.
+  // The host must outlive this object.
   EnergyBooks(Host &host, const WallSpec &settings);
 
   // Adds a step; `left`: what it left on this process, null: there are no spheres; `coats`: the same on all processes.

@@ -16,7 +16,7 @@ namespace lsdcd {
 
 class EnergyRecorder : public MeshRecorder<PlaceEnergy> {
  public:
-  // Both must outlive it.
+  // Both arguments must outlive this object.
   EnergyRecorder(Host &host, const WallSpec &settings);
 
   void set_engine(EnergyEngine *engine);

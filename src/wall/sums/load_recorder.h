@@ -15,7 +15,7 @@ namespace lsdcd {
 // A mesh without wear and without mesh_fields has no loads.
 class LoadRecorder : public MeshRecorder<Load> {
  public:
-  // Both must outlive it. settings.wear.per_work is volume per work in the host's units.
+  // Both arguments must outlive this object. settings.wear.per_work is volume per work in the host's units.
   LoadRecorder(Host &host, const WallSpec &settings);
 
   // Adds a step of duration `dt` (time). `contacts`: of all meshes on this process, which are read where no engine adds up loads; null:
@@ -27,7 +27,7 @@ class LoadRecorder : public MeshRecorder<Load> {
   // Returns the volume (length^3) worn off the mesh so far, on all processes. Collective.
   Real worn(int mesh);
 
-  // The average begins again; what has worn off stays.
+  // Begins the average again; what has worn off stays.
   void begin_average(int mesh);
 
   void restore(int mesh, Real time, const std::vector<double> &packed);

@@ -15,7 +15,7 @@
 
 namespace lsdcd {
 
-// Of one mesh.
+// The mean load of one mesh.
 struct MeanLoad {
   Vec3 force = {0, 0, 0};     // on the mesh
   Vec3 torque = {0, 0, 0};    // on the mesh, about the point of MeshSpec::torque_about in each step
@@ -24,7 +24,7 @@ struct MeanLoad {
   void add(const MeanLoad &more, Real times);
 };
 
-// For a saved state, of one mesh: sums over time, of all processes, since the last interval ended.
+// What a saved state has of one mesh: sums over time, of all processes, since the last interval ended.
 struct MeanLoadState {
   Real time = 0;    // of the sums
   MeanLoad sum, mean;
@@ -34,7 +34,7 @@ struct MeanLoadState {
 // simulated, weighted by their time; a step that sets a run up has none.
 class MeanLoads {
  public:
-  // Both must outlive it.
+  // Both arguments must outlive this object.
   MeanLoads(Host &host, const WallSpec &wall) :
       host_(host), wall_(wall), sums_(wall.meshes.size()), means_(wall.meshes.size())
   {
@@ -44,10 +44,10 @@ class MeanLoads {
   void add(const Step &step, StepResults *results, const std::vector<Pose> &poses,
            const std::vector<NodeLoad> &nodes, const std::vector<CoatLoad> *coats);
 
-  // Of the last interval that has ended; 0 before. Collective.
+  // Returns the mean of the last interval that has ended; 0 before. Collective.
   const MeanLoad &mesh(int k);
-  // Sums over all meshes. Torques are about the origin of the box if the meshes have theirs about different
-  // points. Collective.
+  // Returns the sum of the means of all meshes. Torques are about the origin of the box if the meshes have theirs about different points.
+  // Collective.
   MeanLoad of_all();
 
   std::vector<MeanLoadState> save();    // collective

@@ -25,11 +25,12 @@ struct RecordedMesh {
 template <class Row>
 class MeshRecorder {
  public:
-  // The host must outlive it.
+  // The host must outlive this object.
   MeshRecorder(Host &host, std::size_t n_meshes) : host_(host), rows_(n_meshes) {}
   virtual ~MeshRecorder() = default;
 
-  // Takes what the last engine has added up, and from now on that of this one; null: it adds up nothing. The last one must still be there.
+  // Takes what the last engine has added up, and sets the engine from now on; null: it adds up nothing. The last engine must still be
+  // there.
   void set_engine(FeatureEngine<Row> *engine)
   {
     for (int mesh = 0; mesh < n_meshes(); mesh++) taken(mesh);
@@ -44,7 +45,7 @@ class MeshRecorder {
     return all;
   }
 
-  // Restores data of a saved state, before the first step: FeatureRows::packed(), the same on all processes. The first one keeps them.
+  // Restores rows of a saved state, before the first step: FeatureRows::packed(), the same on all processes. The first process keeps them.
   void restore(int mesh, const std::vector<double> &packed)
   {
     taken(mesh) = FeatureRows<Row>();
@@ -64,7 +65,7 @@ class MeshRecorder {
 
   // Returns the rows of this process without what the engine has added up since the last time.
   FeatureRows<Row> &rows(int mesh) { return rows_[static_cast<std::size_t>(mesh)]; }
-  // Returns them with it.
+  // Returns the rows of this process with what the engine has added up.
   FeatureRows<Row> &taken(int mesh)
   {
     if (engine_)
@@ -72,7 +73,7 @@ class MeshRecorder {
         rows(mesh).add(of.feature, from_engine(mesh, of.row));
     return rows(mesh);
   }
-  // Returns the row that is added for one of the engine.
+  // Returns the row that is added for a row of the engine.
   virtual Row from_engine(int /* mesh */, const Row &row) const { return row; }
 
   Host &host_;

@@ -26,7 +26,7 @@ struct MeshTotals {
   Real energy = 0;                      // elastic, in overlaps and springs
 };
 
-// What the nodes of a mesh do, where they move.
+// What the nodes of a mesh do, if they move.
 struct NodeLoad {
   bool present = false;    // the mesh has nodes
   Real power = 0;          // on the spheres of this process, by their motion
@@ -35,8 +35,7 @@ struct NodeLoad {
       0};    // of the forces of contacts on them, of all processes, about the origin of the box
 };
 
-// Returns what the contacts of this process did to mesh k of a wall in a step; nothing where `results` is null, as there are no
-// spheres.
+// Returns what the contacts of this process did to mesh k of a wall in a step; nothing if `results` is null, because there are no spheres.
 WallTotals totals_of_mesh(StepResults *results, const WallSpec &wall, int k);
 // Returns the point (length, of the box) about which the torque on a mesh at this pose is told.
 inline Vec3 torque_point(const MeshSpec &mesh, const Pose &pose)
@@ -47,17 +46,17 @@ inline Vec3 torque_point(const MeshSpec &mesh, const Pose &pose)
 // Sums are made when they are asked for: one message in a step, and only in some steps.
 class StepTotals {
  public:
-  // Both must outlive it.
+  // Both arguments must outlive this object.
   StepTotals(Host &host, const WallSpec &settings) :
       host_(host), settings_(settings), meshes_(settings.meshes.size())
   {
   }
 
-  // A step has been computed.
+  // Notes that a step was computed, so that its sums are not made yet.
   void expire() { reduced_ = false; }
-  // The wall acts on nothing: all is 0 until the next step.
+  // Sets all sums to 0 until the next step, because the wall acts on nothing.
   void clear();
-  // Those of a saved state, until the next step.
+  // Sets the sums of a mesh to those of a saved state, until the next step.
   void restore(int mesh, const MeshTotals &was) { meshes_[mesh] = was; }
 
   bool are_made() const { return reduced_; }    // of the last step
@@ -67,15 +66,15 @@ class StepTotals {
   void reduce(StepResults *results, const std::vector<Pose> &poses,
               const std::vector<NodeLoad> &nodes = {},
               const std::vector<CoatLoad> *coats = nullptr);
-  // The power of a mesh that is a body, by its pose with the velocities of the whole step, once these are known.
+  // Sets the power of a mesh that is a body, by its pose with the velocities of the whole step, once these are known.
   void set_power(int mesh, const Pose &pose);
-  // The power of a mesh whose nodes move, once their velocities of the whole step are known.
+  // Sets the power of a mesh whose nodes move, once their velocities of the whole step are known.
   void set_power(int mesh, Real power) { meshes_[mesh].power = power; }
 
   // Returns the sums of the last reduce().
   const MeshTotals &mesh(int k) const { return meshes_[k]; }
-  // Over all meshes: sums, and the largest overlap. Torques are about the origin of the box if the
-  // meshes have their torques about different points.
+  // Returns the totals over all meshes: sums, and the largest overlap. Torques are about the origin of the box if the meshes have their
+  // torques about different points.
   MeshTotals of_all() const;
 
  private:

@@ -23,7 +23,7 @@ namespace lsdcd {
 // Making and building are collective and throw the same InputError on every process.
 class MeshGrid {
  public:
-  // The mesh is read or taken from its spec, placed and welded. Host and specs must outlive it.
+  // Reads the mesh, or takes it from its spec, and places and welds it. Host and specs must outlive this object.
   MeshGrid(Host &host, const WallSpec &wall, const MeshSpec &spec);
 
   // Makes the grid for particles up to radius `cutoff` with centres in `box`, with the periodic
@@ -31,41 +31,40 @@ class MeshGrid {
   // cutoff, n > 1, is kept in a file of its own, FILE.n; that of another box in none.
   void build(Real cutoff, const PeriodicBox &box);
 
-  // Is the grid right for spheres in this box, too? Images follow it to kBoxTolerance of the
-  // cutoff. The same on all processes.
+  // Returns whether the grid is right for spheres in this box, too, the same on all processes. Images follow the box to kBoxTolerance of
+  // the cutoff.
   bool fits(const PeriodicBox &box) const;
   static constexpr Real kBoxTolerance = 1e-4;
 
   bool has_images() const { return !spec_.has_nodes && view().wall.images.same_vertex; }
-  // No sphere in the box can touch the wall.
+  // Returns whether no sphere in the box can touch the wall.
   bool out_of_reach() const { return !spec_.has_nodes && cells_ == 0; }
 
   const MeshReport &report() const { return report_; }
   std::uint64_t mesh_fingerprint() const { return mesh_fingerprint_; }    // as its placement has it
   const std::string &mesh_text() const { return mesh_text_; }    // of the process that read it
   const std::string &grid_text() const { return grid_text_; }    // on every process
-  // Text on the last build's cache file, and on what was wrong with it;
-  // empty on all processes but the first, and where there is nothing to say.
+  // Return texts on the last build's cache file, and on what was wrong with it; empty on all processes but the first, and if there is
+  // nothing to say.
   const std::string &cache_text() const { return cache_text_; }
   const std::string &cache_warning() const { return cache_warning_; }
-  // Ends of the mesh that do not meet across a periodic face, after the last build; on every
-  // process.
+  // Returns a text on ends of the mesh that do not meet across a periodic face, after the last build; on every process.
   const std::string &ends_warning() const { return ends_warning_; }
   bool has_parted() const { return has_parted_; }    // they met in the box before
   ViewOf<StepGrid> view() const { return ViewOf<StepGrid>(flat_view(memory_.block.get())); }
   Real cutoff() const { return cutoff_; }                 // 0 before the first build
   bool is_shared() const { return memory_.is_shared; }    // with the processes of the node
 
-  // False where a spring names a feature that this mesh does not have.
+  // Returns whether this mesh has a feature that a spring names.
   bool has(FeatureCode feature) const;
 
-  // The vertices go to other places, in its frame (length), given on processes that have the mesh; the grid is not
-  // built again by that. Collective.
+  // Moves the vertices to other places in the mesh's frame (length), given on processes that have the mesh. Does not build the grid again.
+  // Collective.
   void move_vertices(const std::vector<Vec3> &at);
 
-  // Null but on one process per node, and on all where grains may be no spheres.
+  // Returns the mesh. One process per node has it, or all if grains may be no spheres or nodes move; null on others.
   const WeldedMesh *mesh() const { return mesh_.get(); }
-  // The tree of the triangles of the grid, with images; null before the first build, and where all grains are spheres.
+  // Returns the tree of the triangles of the grid, with images; null before the first build, and if all grains are spheres.
   const TriangleTree *tree() const { return tree_ ? &tree_->tree : nullptr; }
 
   std::size_t bytes() const;    // held by this process

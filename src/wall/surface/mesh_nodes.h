@@ -21,66 +21,66 @@ namespace lsdcd {
 
 class MeshNodes {
  public:
-  // The mesh with this number, from 0, as it was welded: its nodes are there, at rest, until they are set. Host and
-  // wall must outlive it.
+  // Takes this mesh of the wall, counted from 0, as it was welded: its nodes are there, at rest, until they are set. Host and wall must
+  // outlive this object.
   MeshNodes(Host &host, const WallSpec &wall, int mesh, const WeldedMesh &welded);
 
   int count() const { return static_cast<int>(mesh_.vertices.size()); }
 
-  // Gives the nodes to an engine, before all that follows but mesh(), bounds() and names. Throws InputError where the mesh is too
-  // large for it.
+  // Gives the nodes to an engine. Called before all other functions except mesh() and bounds(). Throws InputError if the mesh is too large
+  // for the engine.
   void start(WallEngine &engine);
-  // Goes on in another engine, which has taken them (WallEngine::take_nodes()) and has no grids.
+  // Continues in another engine, which has taken the nodes (WallEngine::take_nodes()) and has no grids.
   void forget_grid() { cutoff_ = 0; }
 
-  // Places (length) and velocities (length/time) of the nodes from the next step on: x y z, node after node. Velocities
-  // are of the same time as those of spheres. `v` null: all are 0.
+  // Sets places (length) and velocities (length/time) of the nodes from the next step on: x y z, node after node. Velocities are of the
+  // same time as those of spheres. `v` null: all are 0.
   void set(const Real *x, const Real *v);
   // Sets places and velocities, as set() does, from arrays that lie where the wall computes, in the order of its
   // engine's stream: row k is of node node_of_row[k], which is the same in each call.
   void set_in_place(const Real *x, const Real *v, const std::vector<int> &node_of_row);
 
-  // Begins a step: nodes go to where they were set. `cutoff`: 0 while there are no spheres. Throws InputError, which
-  // names the node or face, where one is at no finite place, has no area, or has gone farther than the cutoff in one
-  // step, as it may have gone through a sphere; the nodes are then where they were.
+  // Begins a step: nodes go to where they were set. `cutoff`: 0 while there are no spheres. Throws InputError, which names the node or
+  // face, if a node is at no finite place, if a face has no area, or if a node has gone farther than the cutoff in one step, because it may
+  // have gone through a sphere. The nodes are then where they were.
   void begin_step(const Step &step, Real cutoff);
 
   // Returns where the nodes are in this step. Waits.
   const WeldedMesh &mesh() const;
   Box bounds() const { return {mesh_.report.lo, mesh_.report.hi}; }    // of them
 
-  // Is a new grid needed, because this one is for another cutoff or a node has gone too far?
+  // Returns whether a new grid is needed, because this one is for another cutoff or a node has gone too far.
   bool needs_grid(Real cutoff) const;
-  // Have nodes moved so far since the last candidate search that the lists of spheres are no longer complete?
+  // Returns whether nodes have moved so far since the last candidate search that the lists of spheres are no longer complete.
   bool needs_choice(Real cutoff) const;
   void note_choice() { way_ = 0; }
   void build_grid(Real cutoff);
 
   // Turns the springs of spheres [0, n) with their features since the last step.
   void turn_springs(int n) { engine_->turn_springs(n); }
-  // For a saved state: where the nodes are and will be, their names, and the forces on them. Collective.
+  // Returns, for a saved state, where the nodes are and will be, their names, and the forces on them. Collective.
   NodeState save();
-  // Throws InputError, which names the node or face, where restore() would put one at no finite place or without area.
+  // Throws InputError, which names the node or face, if restore() would put a node at no finite place, or make a face without area.
   void check(const NodeState &was) const;
   // Takes a state that was checked, before the first step: nodes are where they were saved, to which springs belong, until the
   // next step begins. A state without places has springs of the step that comes.
   void restore(const NodeState &was);
 
-  // After a step: sees what its contacts do to the nodes, on this process. Throws InputError, which names the sphere, where a force is
-  // not finite; where nodes were set in place, the next step or who asks for forces does.
+  // Makes the engine look, after a step, at what contacts do to the nodes on this process. Throws InputError, which names the sphere, if a
+  // force is not finite; if nodes were set in place, the next step throws it, or what asks for forces.
   void see_forces();
-  // Returns the range of what was seen, for that of all processes, where these are several.
+  // Returns the range of what see_forces() has found. Several processes make their common range of these.
   const SummandRange &range() const { return range_.shares; }
-  // Then adds up what was seen.
+  // Adds up the forces that see_forces() has found, in units of the range of all processes.
   void add_forces(const SummandRange &of_all);
   void clear_forces();
-  // In place of see_forces() and add_forces() on a process whose step has failed: it takes part in the sums of all with 0.
+  // Takes the place of see_forces() and add_forces() on a process whose step has failed, so that it adds 0 to the sums of all processes.
   void have_no_forces();
-  // Sums over all processes, x y z, node after node (force): of contacts, and of `pressure` (force/area), which pushes
-  // to where the normals of faces point by their winding, and outward on a closed mesh. Collective, once a step.
+  // Returns the forces on the nodes, summed over all processes, x y z, node after node: those of contacts, and those of `pressure`
+  // (force/area), which pushes to where the normals of faces point by their winding, and outward on a closed mesh. Collective, once a step.
   const std::vector<Real> &forces(Real pressure);
-  // Writes the sums that forces() returns to an array that lies where the wall computes, with rows as in
-  // set_in_place(). Returns false where there are none, or not those of all processes. Not collective. Does not wait.
+  // Writes the sums that forces() returns to an array that lies where the wall computes, with rows as in set_in_place(). Returns false if
+  // there are none, or not those of all processes. Not collective. Does not wait.
   bool put_forces(Real pressure, Real *to, const std::vector<int> &node_of_row);
   // Returns the moment of the forces of contacts on the nodes about the origin of the box, of all processes. Collective.
   Vec3 moment();

@@ -13,54 +13,54 @@
 
 namespace lsdcd {
 
-// In each step: change(), begin(), and end() once contacts are computed. Errors are InputError, the same on all
+// The surface of one mesh. In each step: change(), begin(), and end() once contacts are computed. Errors are InputError, the same on all
 // processes, with a text that names the mesh.
 class MeshSurface {
  public:
-  // A surface that stays as `grid` has read it. Host, wall and grid must outlive it.
+  // Makes a surface that stays as `grid` has read it. Host, wall and grid must outlive this object.
   MeshSurface(Host &host, const WallSpec &wall, int mesh, MeshGrid &grid) :
       host_(host), wall_(wall), index_(mesh), grid_(grid)
   {
   }
   virtual ~MeshSurface() = default;
 
-  // Returns the mesh in this step; null on processes that do not have it: all have it where nodes move or grains may be
-  // no spheres, else one per node.
+  // Returns the mesh in this step; null on processes that do not have it. All have it if nodes move or grains may be no spheres, else one
+  // per node.
   virtual const WeldedMesh *mesh() const { return grid_.mesh(); }
-  // Returns the records of its features. Where nodes move the engine alone has them, and there are none.
+  // Returns the records of the mesh's features; none if nodes move, because then only the engine has them.
   virtual MeshFeaturesView records() const { return grid_.view().wall; }
   virtual Box bounds() const { return {grid_.report().lo, grid_.report().hi}; }
   virtual bool changes() const { return false; }    // from step to step
-  // Returns its nodes where these move, or null.
+  // Returns the nodes of the mesh if they move, or null.
   virtual MeshNodes *nodes() const { return nullptr; }
-  // Return the volume that wear has removed, and that which is worn but held back, see MeshWear.
+  // Return the volume that wear has removed, and the volume that is worn but held back; see MeshWear.
   virtual Real removed() const { return 0; }
   virtual Real held_back() const { return 0; }
 
-  // Throws where the mesh cannot change in two dimensions.
+  // Throws if the mesh cannot change in two dimensions.
   virtual void check_plane() const {}
-  // Throws where it is not known in a snapshot.
+  // Throws if the surface is not known in a snapshot.
   virtual void check_snapshot() const {}
-  // Throws where it cannot change with the grid that was built.
+  // Throws if the surface cannot change with the grid that was built.
   virtual void check_grid() const {}
 
-  // Moves vertices where that is due, but nodes. Returns whether it did: then the grid is to be built again. Collective.
+  // Moves vertices that are no nodes, if that is due. Returns whether vertices have moved: then the grid must be built again. Collective.
   virtual bool change(const Step & /* step */) { return false; }
-  // Returns by how far change() has moved each vertex (length), if energy is recorded; the same on all processes. Else empty.
+  // Returns how far change() has moved each vertex (length), the same on all processes; empty if energy is not recorded.
   virtual std::vector<Vec3> receded() const { return {}; }
   // Begins a step.
   virtual void begin(const Step & /* step */, Real /* cutoff */) {}
-  // Notes what the contacts of a step with spheres do to it.
+  // Notes what the contacts of a step with spheres do to the surface.
   virtual void end(const StepResults & /* results */, const Step & /* step */) {}
 
-  // Returns the line of the log on it; empty: there is nothing to say.
+  // Returns the line of the log on wear; empty: there is nothing to say.
   virtual std::string recedes_text() const { return ""; }
 
-  // Writes what it needs to go on into a saved state. restore() takes it again as far as that is of this surface; not
-  // `same`: it is of another mesh. The first process warns of what is left out. Returns whether vertices have moved: then
-  // the grid is to be built again. Both are collective.
+  // save() writes what the surface needs to continue into a saved state. restore() takes from a state what is of this surface, and returns
+  // whether vertices have moved: then the grid must be built again. `same`: the state is of the same mesh. The first process warns of what
+  // is left out. Both are collective.
   virtual void save(MeshState & /* to */) const {}
-  // Throws InputError, the same on all processes, where restore() would make a mesh that cannot be.
+  // Throws InputError, the same on all processes, if restore() would make a mesh that cannot be.
   virtual void check(const MeshState & /* was */, bool /* same */) const {}
   virtual bool restore(const MeshState &was, bool same);
 
@@ -77,7 +77,8 @@ class MeshSurface {
   MeshGrid &grid_;
 };
 
-// Makes what the spec of a mesh says. Host, wall and grid must outlive it. Throws InputError on all processes. Collective.
+// Makes the surface that the spec of a mesh describes. Host, wall and grid must outlive this object. Throws InputError on all processes.
+// Collective.
 std::unique_ptr<MeshSurface> make_surface(Host &host, const WallSpec &wall, int mesh,
                                           MeshGrid &grid);
 

@@ -19,35 +19,35 @@ namespace lsdcd {
 
 class MeshWear {
  public:
-  // The mesh with this number, from 0, before any of it has worn; `mesh` is null but on processes that have it, of which
-  // the first is one. Throws InputError on all processes where its triangles are not wound alike. Collective.
+  // Wears this mesh of the wall, counted from 0, of which nothing has worn yet. `mesh`: null on processes that do not have it; the first
+  // process has it. Throws InputError on all processes if its triangles are not wound alike. Collective.
   MeshWear(Host &host, const WallSpec &wall, int index, const MeshReport &report,
            const WeldedMesh *mesh);
 
-  // Is this a step that begins with moved vertices?
+  // Returns whether this step begins with moved vertices.
   bool is_due(const Step &step) const
   {
     return step.kind == Step::step && step.number % wall_.wear_deform.every == 0;
   }
 
-  // A step of duration dt (time): what contacts of this process have worn off. `features`: of the mesh.
+  // Adds what contacts of this process have worn off in a step of duration dt (time). `features`: of the mesh.
   void add(const std::vector<StepContact> &contacts, Real dt, const MeshFeaturesView &features);
 
-  // Removes what has worn since the last time. Returns whether vertices move; then `at` has their new places on all
-  // processes that have the mesh, and receded() how far they went. `mesh`: as above, where it is now. Logs once where nodes stay
-  // from now on. Throws InputError where too much has worn for one move. Collective.
+  // Removes what has worn since the last time. Returns whether vertices move; then `at` has their new places on all processes that have the
+  // mesh, and receded() how far they went. `mesh`: as above, where it is now. Logs once which nodes stay from now on. Throws InputError if
+  // too much has worn for one move. Collective.
   bool recede(const WeldedMesh *mesh, std::int64_t step, std::vector<Vec3> &at);
-  // If energy is recorded, of each vertex, on all processes; else empty.
+  // Returns how far recede() has moved each vertex, on all processes; empty if energy is not recorded.
   const std::vector<Vec3> &receded() const { return receded_; }
 
-  // Volumes (length^3), the same on all processes. Removed: between the first surface and that of this step. Held back: worn by
-  // factor, and not removed as vertices stay.
+  // Return volumes (length^3), the same on all processes. removed(): between the first surface and that of this step. held_back(): worn,
+  // times the factor, and not removed because vertices stay.
   Real removed() const { return removed_; }
   Real held_back() const { return held_back_; }
 
-  // `mesh` as above. The state is whole on the first process only. Collective.
+  // Returns the state for saving, which is whole on the first process only. `mesh` as above. Collective.
   SurfaceState save(const WeldedMesh *mesh) const;
-  // The same on all processes.
+  // Restores a state, which is the same on all processes.
   void restore(const SurfaceState &was);
 
   std::size_t bytes() const;
