@@ -121,7 +121,7 @@ class WallEngine {
   virtual void take_nodes(WallEngine & /* from */) {}
   // Returns the object that adds up loads of features in the memory of the engine; null if the host reads contacts as fast.
   virtual FeatureEngine<Load> *loads() { return nullptr; }
-  // Returns the object that does the same for energy, if the settings record it.
+  // Returns the object that adds up energy of features in the memory of the engine, if the settings record energy.
   virtual EnergyEngine *energies() { return nullptr; }
 
   // Returns what steps have counted since the last call, and resets the counts to 0. Throws InputError if a step had to leave out a sphere

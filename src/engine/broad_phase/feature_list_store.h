@@ -104,7 +104,7 @@ class FeatureListStore {
     if (!B::kOnCpu) multi_contact_.reserve(n);
     b.for_each_in_warps(n, gather_work(grid, pose, spheres, margin, counts));
   }
-  // Does the same for n candidate-mesh pairs of more than one mesh. `large`: is any of the meshes large?
+  // Makes the lists of n candidate-mesh pairs of more than one mesh. `large`: any of the meshes is large.
   void make(B &b, const GridView &first_grid, bool large, const PosedGrid *meshes, const int *mesh,
             const CandidateSpheres &spheres, Real margin, StepCounts *counts)
   {

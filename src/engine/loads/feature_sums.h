@@ -5,8 +5,12 @@
 // (sum_unit.h), in units that follow from the rows of this process, and then to sums over steps. So sums have the same bits in any
 // order of threads.
 //
-// A step has items, each with any number of records of a feature: n() items, of which item k has count(k) records; at(k, c) is one
-// of them, row(record) what it adds, and note(record) does what else there is to do with it.
+// The type Items has the items of a step, each with any number of records of features:
+//   n()            returns the number of items
+//   count(k)       returns the number of records of item k
+//   at(k, c)       returns record c of item k
+//   row(record)    returns the row that a record adds to its feature
+//   note(record)   does the other work for a record, such as adding an impact to its spectrum
 #pragma once
 
 #include "backend/backend.h"

@@ -37,8 +37,8 @@ class NodeEngine {
 
   // Takes the next places of all nodes, and their velocities, in the memory of the host. `v` null: all velocities are 0.
   virtual void give(const Vec3 *x, const Vec3 *v) = 0;
-  // Does the same from memory of the backend, in the order of its stream: x y z, where row k is that of node node_of_row[k],
-  // which is the same in each call.
+  // Takes the next places and velocities from memory of the backend, in the order of its stream: x y z, where row k is that of node
+  // node_of_row[k], which is the same in each call.
   virtual void give_in_place(const Real *x, const Real *v, const std::vector<int> &node_of_row) = 0;
   // Moves nodes to the places that were given, and makes their records again (mesh/moving_records.h). Must be called before
   // begin(). `back`: how long before now the velocities are valid (time). Waits only for what it returns.

@@ -142,7 +142,8 @@ class ResultsOn : public StepResults {
 
   const Array<int> &n_contacts() const { return n_contacts_; }
 
-  // Copies to the CPU what the step's settings ask for. `contacts`: the pool, in which places between the contacts of a sphere and those of the next one are not written.
+  // Copies to the CPU what the step's settings ask for. `contacts`: the pool, in which places between the contacts of a sphere and those of
+  // the next one are not written.
   void fetch(B &b, const StepContact *contacts)
   {
     touching_.clear();
@@ -152,8 +153,7 @@ class ResultsOn : public StepResults {
     if (step_.per_sphere) fetch_touching(b);
     if (traits_.contacts && step_.contacts) contacts_ = packed_contacts<StepContact>(b, contacts);
   }
-  // Does the same for what contacts dissipate, if laws keep losses. `extra`: the numbers of the contacts, with
-  // gaps.
+  // Copies to the CPU what contacts dissipate, if laws keep losses. `extra`: the numbers of the contacts, with gaps.
   void fetch_losses(B &b, const Real *extra)
   {
     losses_.clear();
@@ -163,7 +163,8 @@ class ResultsOn : public StepResults {
     fetch_ended(b);
   }
 
-  // Returns the contacts of the last step in memory of the backend. `contacts`: the pool, in which places between the contacts of a sphere and those of the next one are not written.
+  // Returns the contacts of the last step in memory of the backend. `contacts`: the pool, in which places between the contacts of a sphere
+  // and those of the next one are not written.
   NodeContacts node_contacts(const StepContact *contacts, int mesh, const MeshFeaturesView &wall,
                              const Vec3 *velocity) const
   {

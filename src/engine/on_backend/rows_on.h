@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rows that follow grains, in the memory of a backend, and the kernels that write them to messages and read them there. Rows:
-//   size()               numbers of a row
-//   write(place, to)     writes them
-//   read(place, from)    reads them
+// Rows that follow grains, in the memory of a backend, and the kernels that write them to messages and read them there. The type Rows has
+//   size()               returns how many numbers a row has
+//   write(place, to)     writes the row of a place
+//   read(place, from)    reads the row of a place
 #pragma once
 
 #include "backend/backend.h"
@@ -18,7 +18,7 @@
 
 namespace lsdcd {
 
-// Returns the k-th of some grains, or of all where these are null.
+// Returns the k-th of some grains, or of all grains if `grains` is null.
 LSDCD_FN int kth_grain(const int *grains, std::size_t k)
 {
   return grains ? grains[k] : static_cast<int>(k);

@@ -40,7 +40,7 @@ void each_number(Numbers &numbers, BookedEnergy &e)
   numbers(e.rows.of, e.step.of, e.dt);
 }
 
-// Sums n of them over all processes. Collective.
+// Sums n energy balances over all processes. Collective.
 void sum_over_processes(Host &host, BookedEnergy *booked, int n);
 
 }    // namespace lsdcd

@@ -70,7 +70,7 @@ struct WallEffects {
   bool losses = false;     // see ContactLaw::keeps_losses; with records
 };
 
-// Is the law for grains that may be no spheres (shape_law.h)?
+// Says whether a law is for grains that may be no spheres (shape_law.h).
 template <class Law>
 struct IsShapeLaw : std::false_type {
 };
@@ -94,7 +94,7 @@ struct OnWall : Law, LossesOnWall<kEnergy_ && kRecords_> {
   static constexpr bool kPosed = kPosed_, kKeepsContacts = kKeepsContacts_, kNodes = kNodes_,
                         kEnergy = kEnergy_, kRecords = kRecords_;
   static constexpr bool kShapes = IsShapeLaw<Law>::value;
-  // Does a contact store numbers in addition to its shear displacement? See n_stored().
+  // Whether a contact stores numbers in addition to its shear displacement; see n_stored().
   static constexpr bool kStoresExtra = Law::kExtra > 0 || kEnergy;
   // A setup stores what contacts keep, but does not move their springs.
   static constexpr bool kSetsUp = kEnergy || kRecords;

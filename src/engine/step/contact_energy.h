@@ -83,7 +83,7 @@ LSDCD_FN SpringLoss spring_loss(const SpringPart &spring, bool slides, const Vec
                    0.5 * dot(old_spring, spring.ends - spring.begins);
   return loss;
 }
-// Does the same for a contact that has ended, whose limit has become 0.
+// Returns what a spring loses as its contact ends, so that its limit becomes 0.
 LSDCD_FN SpringLoss spring_loss_at_end(const Vec3 &path, const Vec3 &old, const Vec3 &old_spring,
                                        Real old_k)
 {
@@ -442,7 +442,7 @@ struct EnergyBook {
     if constexpr (Law::kBeyondContact) {
       rows[EnergyRow::adhesion] -= b.weight * law.normal_energy(b.c, 0);
     } else {
-      // A sphere that touched nothing was outside a step ago, or was put there.
+      // A sphere that touched nothing was outside a step ago, unless it was put into the wall.
       constexpr Real kOutside = 1e-9;
       const Real before = b.c.overlap + b.c.dt * b.c.v_normal;
       if (s.n_springs == 0 && before > kOutside * b.c.radius)

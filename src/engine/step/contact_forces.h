@@ -57,8 +57,8 @@ struct EnergyMarks {
   }
 };
 
-// The same sets, with the contacts of this step, to which the losses of the last step's contacts are added. `extra`: n_stored(law) numbers
-// of each contact.
+// The sets of EnergyMarks, with the contacts of this step, to which the losses of the last step's contacts are added. `extra`:
+// n_stored(law) numbers of each contact.
 struct LossMarks : EnergyMarks {
   int sphere = 0;
   const Spring *springs = nullptr;

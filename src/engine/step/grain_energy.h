@@ -71,7 +71,7 @@ Real loss_by_radius(const Law &law, const Contact &c, Real weight, const KeptFor
   return 0.5 * weight * (less(c.overlap) + less(old.arm));
 }
 
-// Does the same as EnergyBook::add(), for contact `at`.
+// Adds contact `at` of a grain that is no sphere to the energy balance, as EnergyBook::add() adds one of a sphere.
 template <class Law, class Springs>
 void add_grain(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wall,
                const ForceSettings &settings, const SphereStateWith<Springs> &s,
@@ -102,7 +102,7 @@ void add_grain(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wa
   book_springs(law, c, b.parts, b.weight, now, old, book.rows);
 }
 
-// Does the same as EnergyBook::close(), for grain i, which may be a sphere.
+// Closes the energy balance of grain i, as EnergyBook::close() does for a sphere. The grain may be a sphere.
 template <class Law, class Springs>
 void close_grain(const Law &law, const StepJob &job, const LawAtMesh<Law> &mesh, std::size_t i,
                  const SphereStateWith<Springs> &s, const MarksOf<Law> &marks,
