@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// A classic style without rolling and cohesion that says what its force is made of.
+// A classic style, without rolling and cohesion, whose parts() says what its force is made of.
 template <class Base>
 struct BookedClassic : Base {
   template <class C>

@@ -135,8 +135,9 @@ struct HeardLaw : Law {
   }
 };
 
-// Adds the first half of what a touching pair does in this step, and its springs, and writes the forces that it keeps. make_pair()
-// returns the pair. It is called twice, because what it reads is in caches, and a GPU has few registers.
+// Adds the first half of what a touching pair does in this step, and its springs, and writes the forces that it keeps. make_pair() returns
+// the pair, and is called twice, so that a GPU, which has few registers, need not keep the pair. What make_pair() reads is in a cache by
+// then.
 template <class Law, class MakePair>
 LSDCD_FN void book_new_pair(const Law &law, const MakePair &make_pair,
                             const PairNumbers<Real> &old_numbers, const PairNumbers<Real> &numbers,

@@ -119,8 +119,8 @@ LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, ContactMemory<La
     if (law.has_heat()) out.heat = f.heat;
 }
 
-// Does the same with numbers as they are stored. If the law has history, `old` is what the pair has kept, or null if nothing,
-// and `kept` is what it keeps now.
+// Computes a pair that touches from stored numbers. If the law has history, `old` is what the pair has kept, or null if nothing, and `kept`
+// is what it keeps now.
 template <class Law, class From, class To>
 LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, From old, To kept, PairForce &out)
 {

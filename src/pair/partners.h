@@ -81,7 +81,7 @@ class Partners : public KeptRows {
 
   using KeptRows::pack;
   using KeptRows::packed_size;
-  // Do the same with the first `width` numbers of each pair.
+  // Return the size of the partners of grain i, and pack them, with only the first `width` numbers of each pair.
   int packed_size(int i, int width) const
   {
     return 1 + (row_size() - form_.width + width) * count(i);

@@ -39,7 +39,7 @@ struct DistanceArrays {
   }
 
  private:
-  // Aligned so that a GPU stores them at once, or in two parts of 16 bytes.
+  // Four numbers, aligned so that a GPU stores them at once, or in two parts of 16 bytes.
   template <class U>
   struct alignas(sizeof(U) < 4 ? 4 : 16) Four {
     U v[4];
@@ -108,7 +108,7 @@ struct GridWork {
     out.store(i, nearest_from<Search>(grid, q, s.r, address_inside(grid, q), cell));
   }
 
-  // Can a list be too long for one thread, as at a vertex of very many facets?
+  // Whether a list can be too long for one thread, as at a vertex of very many facets.
   static constexpr bool kHasLong = Search::kComplete;
   static constexpr std::uint32_t kLongForOne = 32;
   LSDCD_FN bool is_long(const Cell &cell) const { return kHasLong && cell.count > kLongForOne; }

@@ -86,7 +86,7 @@ LSDCD_FN Answer far_answer()
   return {kAnyDistance, true};
 }
 
-// Of features at the same distance the first one in the list is found.
+// Decides that of features at the same distance the first one in the list is found.
 struct FirstOfEqual {
   static constexpr bool kOrders = false;
 };
@@ -194,7 +194,7 @@ LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
   return nearest_in_cell<true, Distances>(grid, q, radius, grid.list_kind.most(), at, cell, before);
 }
 
-// Does the same for any q.
+// Returns the nearest point of the wall within `radius` of any q, as nearest_from() does for a q in a known cell.
 template <class Search, class Before = FirstOfEqual>
 LSDCD_FN Answer nearest_distance(const GridView &grid, const Vec3 &q, Real radius,
                                  const Before &before = {})
