@@ -42,7 +42,7 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
 
  private:
   friend class PairGranularLsdcdKokkos<DeviceType>;
-  // Does the same as begin_step() of the plain fix.
+  // Prepares for a step of the pairs in this list, as begin_step() of the plain fix does.
   void begin_step(const lsdcd::PairRows &list, bool types_changed, bool newton);
   // Returns what the pair keeps, with signs as atom i sees it; empty: the pair does not touch.
   std::vector<double> numbers_of(int i, int j);

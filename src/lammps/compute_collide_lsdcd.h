@@ -53,7 +53,7 @@ class ComputeCollideLsdcd : public Compute, protected OwnMessages {
   struct BodyPoint {
     int body, point;
   };
-  // A mesh of the wall, against which this process tries bodies; none where it has none.
+  // A mesh of the wall, against which this process tries bodies. `collision` is null if the process tries none.
   struct Against {
     std::unique_ptr<lsdcd::MeshCollision> collision;
     std::uint64_t fingerprint;    // to know it again

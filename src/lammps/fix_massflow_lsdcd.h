@@ -67,7 +67,7 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
     int mask;
   };
 
-  // massflow/lsdcd/kk does these in its own way.
+  // massflow/lsdcd/kk has its own forms of the following functions.
   virtual void begin_at_atoms();    // of a run
   virtual void box_has_changed(const lsdcd::PeriodicBox &before);
   virtual void look_at_atoms();    // all, or those near the surface
@@ -92,8 +92,8 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   // Columns of the totals: those of a type, and what follows those of all types.
   enum { kForward, kForwardMass, kBackward, kBackwardMass, kColumns };
   enum { kDeleted, kDeletedMass, kAfterTypes };
-  // The surface is farther than `clear` from `last`: until a centre has moved that far, it has
-  // not passed. Not above 0: not known.
+  // What is known of an atom. The surface is farther than `clear` from `last`: an atom that has not moved that far has not passed. `clear`
+  // not above 0: not known.
   struct Track {
     lsdcd::Vec3 last;    // position when last looked at
     double clear;
@@ -123,7 +123,7 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   } window;
   double time_seen = 0;    // LAMMPS's, at the end of the last step
   bigint step_seen = 0;    // its number
-  // With the keyword file: passages of this process that are not in it yet.
+  // The file of the keyword file, and passages of this process that are not in it yet.
   std::unique_ptr<lsdcd::PassFile> rows;
   std::vector<lsdcd::Passage> passages;
   std::int64_t rows_before = 0;    // that a restart file tells of

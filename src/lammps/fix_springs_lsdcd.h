@@ -55,17 +55,18 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   double memory_usage() override;
 
  protected:
-  // For the pair style, which is there as long as this is.
+  // The pair style reads and calls what follows, and exists as long as this fix does.
   friend class PairGranularLsdcd;
-  // Of two types: which numbers of a pair change sign where its grains change places, and ContactLaw::history_kind().
+  // What the fix asks of the law of two types: which numbers of a pair change sign if its grains change places, and
+  // ContactLaw::history_kind().
   struct LawsOfTypes {
     std::function<unsigned(int type, int other)> flips;
     std::function<int(int type, int other)> kind;
   };
-  // Before a run. `width`: numbers that laws keep of a pair, 0: nothing. `books`: pairs keep KeptForces behind these. `kinds`: of all
-  // pairs of types, with a ';' behind each.
+  // Sets the laws before a run. `width`: how many numbers laws keep of a pair; 0: none. `books`: pairs keep KeptForces behind these.
+  // `kinds`: of all pairs of types, with a ';' behind each.
   virtual void set_laws(int width, bool books, const std::string &kinds, const LawsOfTypes &laws);
-  // Before a step of the pairs in this list. `types_changed`: types may have changed since the last step, with the same list.
+  // Prepares for a step of the pairs in this list. `types_changed`: types may have changed since the last step, with the same list.
   void begin_step(const lsdcd::PairList &list, bool types_changed);
   const lsdcd::PairHistory &old() const { return history[1 - now]; }
   lsdcd::PairHistory &next() { return history[now]; }
@@ -76,21 +77,21 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   // Brings what the pairs of the last step keep to their atoms.
   virtual void collect();
   void tell_owners();
-  // Leaves pairs without what they have kept.
+  // Forgets what pairs have kept.
   virtual void forget();
-  // IDs of atoms on the CPU.
+  // Returns the IDs of atoms on the CPU.
   virtual const tagint *tags() { return atom->tag; }
   virtual const double *radii() { return atom->radius; }
   // Keeps the IDs that atoms have, for rename_partners().
   void keep_names();
   // Returns half of the least way from an image of a grain to another; 0: none can touch two.
   double near_images() const;
-  // Types may have changed since the last step, with the same lists. Returns whether numbers were cleared, as they were of another
-  // law.
+  // Notes that types may have changed since the last step, with the same lists. Returns whether numbers were cleared, because they were of
+  // another law.
   virtual bool note_types();
   void tell_cleared();
   virtual int largest_packed_size() const { return partners.largest_packed_size(); }
-  // The partners, which may be elsewhere, for atoms that LAMMPS moves one by one and for restart files.
+  // Returns the partners on the CPU, for atoms that LAMMPS moves one by one and for restart files.
   virtual lsdcd::Partners &of_atoms() { return partners; }
 
   lsdcd::Partners partners;
@@ -111,16 +112,17 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   bool from_file =
       false;    // partners are those of a restart file, whose laws have not been checked
   LawsOfTypes laws;
-  // Laws of types keep numbers of several kinds; types in the last step of a list's pairs; numbers were cleared since this was told.
+  // by_law: laws of types keep numbers of several kinds. cleared: numbers were cleared, which the log has not told yet. listed_type: types
+  // of atoms in the last step of a list.
   bool by_law = false, cleared = false;
   std::vector<int> listed_type;
   double largest_pair =
       0;    // the distance at which the two largest grains touch, however they may grow
-  // Commands between runs may give atoms other IDs: that under which partners know an atom, 0: it is new.
+  // Commands between runs may give atoms other IDs. known_as: the ID by which partners know an atom; 0: the atom is new.
   bool between_runs = true;
   std::vector<tagint> known_as;
   RerunWatch watch;
-  // Of atoms when the list was made, where fix adapt changes them before the step of pairs.
+  // The radii of atoms when the list was made, if fix adapt changes radii before the step of pairs.
   bool watches_radii = false;
   std::vector<double> listed_radius;
 

@@ -70,14 +70,14 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
 
   const lsdcd::WallSpec &spec() const { return wall->spec(); }
   const std::deque<lsdcd::MeshPart> &meshes() const { return wall->meshes(); }
-  // What its contacts have done with energy, over all meshes. Collective.
+  // Returns what the wall's contacts have done with energy, over all meshes. Collective.
   lsdcd::BookedEnergy booked() { return wall->energy().of_all(); }
   std::vector<lsdcd::RunFile> files() const;    // that it reads and writes; of the first process
 
-  // Another fix has deleted n atoms of all processes: there are no new ones because of that.
+  // Notes that another fix has deleted n atoms of all processes, so that the change of their number does not count as new atoms.
   void note_deleted(bigint n) { counted_atoms -= n; }
 
-  // For fixes that come before the wall in a step. Collective.
+  // The following functions are for fixes that come before the wall in a step. Collective.
   void prepare_meshes();                                 // as the wall will before it moves them
   std::vector<lsdcd::Vec3> places_of_nodes(int mesh);    // where the atoms are that are its nodes
 
@@ -109,7 +109,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   std::vector<double> contact_rows;    // of the local array, size_local_cols numbers each
   std::vector<double *> contact_row_at;
 
-  // wall/lsdcd/kk does these in its own way.
+  // wall/lsdcd/kk has its own forms of the following functions.
   virtual void begin_step(lsdcd::StepInput &);
   virtual void finish_step();
   virtual lsdcd::HostSpheres spheres();

@@ -20,7 +20,7 @@ class GuardedFix : public Style {
  public:
   using Style::Style;
 
-  // On all processes.
+  // The following functions are called on all processes.
   void post_constructor() override
   {
     this->run_core([&] { Style::post_constructor(); });
@@ -146,7 +146,7 @@ class GuardedFix : public Style {
     return this->run_core([&] { return Style::modify_param(narg, arg); });
   }
 
-  // On one process, whatever the others do.
+  // The following functions are called on one process, whatever the others do.
   void grow_arrays(int nmax) override
   {
     this->run_core_here([&] { Style::grow_arrays(nmax); });
@@ -223,7 +223,7 @@ class GuardedPair : public Style {
     return this->run_core([&] { return Style::memory_usage(); });
   }
 
-  // On one process, whatever the others do.
+  // The following functions are called on one process, whatever the others do.
   double single(int i, int j, int itype, int jtype, double rsq, double factor_coul,
                 double factor_lj, double &fforce) override
   {
@@ -281,7 +281,7 @@ class GuardedRegion : public Style {
   {
     this->run_core([&] { Style::init(); });
   }
-  // On one process, whatever the others do.
+  // The following functions are called on one process, whatever the others do.
   int inside(double x, double y, double z) override
   {
     return this->run_core_here([&] { return Style::inside(x, y, z); });

@@ -7,7 +7,7 @@
 
 #include <string>
 
-// Is it the first stable LAMMPS with fix heat/flow and what it integrates, or a later one?
+// Whether LAMMPS has fix heat/flow and what it integrates: since this stable version.
 #define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
 
 namespace LAMMPS_NS {
@@ -19,7 +19,7 @@ namespace lsdcd {
 
 class Host;
 
-// Returns the shapes that the atom style allows, as kEllipsoids where there are no others; empty: all atoms are spheres or points.
+// Returns the shapes that the atom style allows, as kEllipsoids if there are no others; empty: all atoms are spheres or points.
 constexpr char kEllipsoids[] = "ellipsoids";
 std::string shape_of_atoms(const LAMMPS_NS::Atom &atom);
 

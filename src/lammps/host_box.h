@@ -17,12 +17,11 @@ namespace lsdcd {
 // Returns the simulation box, without a margin.
 PeriodicBox host_box(const LAMMPS_NS::Domain &domain);
 
-// Does LAMMPS reneighbour before any atom has gone farther than half the skin? A step in which one
-// has is a reneighbouring.
+// Returns whether LAMMPS reneighbours in any step in which an atom has gone farther than half the skin.
 bool atoms_stay_close(const LAMMPS_NS::Neighbor &neighbor);
 
-// Has LAMMPS looked at all atoms in this step, which was no reneighbouring? Then none has gone farther than half the skin
-// since the last one. With a delay it looks in the steps after it.
+// Returns whether LAMMPS has looked at all atoms in this step, which was no reneighbouring. Then none has gone farther than half the skin
+// since the last reneighbouring. With a delay LAMMPS looks only in the steps after it.
 bool has_looked_at_atoms(const LAMMPS_NS::Neighbor &neighbor);
 
 }    // namespace lsdcd

@@ -39,7 +39,7 @@ class MpiHost : public Host {
   MPI_Comm world_;
 };
 
-// One whose processes share memory where they are on one node. To make and end it is collective.
+// A host whose processes share memory if they are on one node. Making and ending it is collective.
 class MpiNodeHost : public MpiHost {
  public:
   explicit MpiNodeHost(MPI_Comm world);

@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// The file is read by the first process alone: it may not be there on other nodes. Collective;
+// Returns the mesh of a spec on every process. Only the first process reads the file, which may not be there on other nodes. Collective;
 // throws InputError on all.
 WeldedMesh read_together(Host &host, const MeshSpec &settings);
 

@@ -18,28 +18,26 @@ namespace LAMMPS_NS {
 
 class NodeAtoms {
  public:
-  // `mesh`: of the wall, which has_nodes.
+  // `mesh`: a mesh of the wall that has_nodes.
   NodeAtoms(class LAMMPS *lmp, int mesh) : lmp(lmp), mesh(mesh) {}
 
-  // Before a run: finds them where that was not done, and checks what may have changed. `wall_bit`: of the group of the
-  // spheres. `keeps_tags`: atoms have the tags that they had and may be anywhere, as in a rerun. Returns what the log should
-  // say. Throws InputError, the same on all processes, where a vertex has no atom or two, and where an atom is a sphere of
-  // the wall, too. Collective.
+  // Finds the atoms before a run, if they were not found yet, and checks what may have changed. `wall_bit`: of the group of the spheres.
+  // `keeps_tags`: atoms have the tags that they had and may be anywhere, as in a rerun. Returns what the log should say. Throws InputError,
+  // the same on all processes, if a vertex has no atom or two, or if an atom is also a sphere of the wall. Collective.
   std::string init(lsdcd::Wall &wall, int wall_bit, bool keeps_tags);
 
-  // Checks by the places where the wall has its nodes that the atoms with their tags are still they, and finds them there
-  // if they have other tags; returns what the log should say then. Throws InputError where one is lost, and where they may
-  // be others. Collective.
+  // Checks, by the places of the wall's nodes, that the tags still belong to the same atoms, and finds the atoms there if they have other
+  // tags; returns what the log should say then. Throws InputError if an atom is lost, or if they may be other atoms. Collective.
   std::string check_tags(lsdcd::Wall &wall);
 
   bool is_of(int which) const { return which == mesh; }
 
-  // Before a step: gives the wall the places and velocities of all nodes. `look`: atoms may have other indices since
-  // the last time. `now`: the step. Throws InputError where one is lost. Collective.
+  // Gives the wall the places and velocities of all nodes before a step. `look`: atoms may have other indices since the last time. `now`:
+  // the step. Throws InputError if an atom is lost. Collective.
   void send(lsdcd::Wall &wall, bool look, const lsdcd::Step &now);
-  // Returns where they are now, in the order of the nodes. Throws InputError where one is lost. Collective.
+  // Returns where the atoms are now, in the order of the nodes. Throws InputError if one is lost. Collective.
   std::vector<lsdcd::Vec3> places(const lsdcd::Wall &wall);
-  // After it: adds the forces on them. Collective.
+  // Adds the forces on the nodes to the atoms after a step. Collective.
   void add_forces(lsdcd::Wall &wall);
   // Returns the sum of force times velocity over the nodes of this process. `force`: x y z, node after node.
   double power(const std::vector<double> &force);

@@ -17,12 +17,12 @@ class Host;
 
 namespace LAMMPS_NS {
 
-// A file that the fix writes must be no other that one of our styles reads or writes: that would be lost without a word.
-// Throws InputError on all processes. Collective.
+// Throws InputError on all processes if a file that the fix writes is one that another of our styles reads or writes: it would be lost
+// without a word. Collective.
 void check_files_apart(const class Fix &, class LAMMPS &, lsdcd::Host &);
 
-// A text where an earlier fix has a mesh of this one, at the same place and for some of its atoms;
-// empty: none has. The later fix warns. Collective.
+// Returns a text if an earlier fix has a mesh of this fix, at the same place and for some of its atoms; empty: none has. The later fix
+// warns. Collective.
 std::string doubled_mesh(const class FixWallLsdcd &, class Modify &, const class Atom &, MPI_Comm);
 
 // Returns every how many steps fixes act that may change types, radii or masses of atoms in a run, also between lists. Fix adapt is not
@@ -32,8 +32,8 @@ std::vector<int> steps_between_changes(class Modify &);
 // this one.
 bool atoms_may_have_changed(const std::vector<int> &steps_between, bigint step);
 
-// Returns a text where a pair style of LAMMPS puts the springs of pairs to their atoms after this fix has created or deleted
-// some, so that they would go to other atoms; empty: none does.
+// Returns a text if a pair style of LAMMPS puts the springs of pairs to their atoms after this fix has created or deleted some, so that
+// they would go to other atoms; empty: none does.
 std::string late_pair_springs(const class Fix &, class Modify &);
 
 }    // namespace LAMMPS_NS

@@ -23,11 +23,11 @@ class OutputVariables {
   OutputVariables &operator=(const OutputVariables &) = delete;
 
   // Makes an equal-style variable PREFIX_NAME of each number that `words` ask for: names PREFIX NAME [NAME ...], or names PREFIX all, which
-  // stand up to the end of the words. `known`: the numbers that there are. `row`: of which row of the style's array, from 1; 0: of its vector
-  // and scalar. `why_not`: why there is no number of a name. Throws InputError, and makes none then.
+  // stand up to the end of the words. `known`: the numbers that there are. `row`: of which row of the style's array, from 1; 0: of its
+  // vector and scalar. `why_not`: why there is no number of a name. Throws InputError, and makes none then.
   void make(const std::vector<std::string> &words, const std::vector<lsdcd::NamedElement> &known,
             int row, const std::function<std::string(const std::string &)> &why_not);
-  // As make() for a style whose numbers do not depend on its settings.
+  // Makes variables, as above, of a style whose numbers do not depend on its settings.
   void make(const std::vector<std::string> &words, const std::vector<lsdcd::NamedElement> &known,
             int row = 0);
 

@@ -28,10 +28,10 @@ class OwnMessages {
   // Returns the words of a command from `first` on. Throws InputError for an '&' that continues no line.
   static std::vector<std::string> words_of(char **first, char **end);
 
-  // By the first process.
+  // Write to the log, by the first process.
   void log(const std::string &) const;
   void warn(const std::string &) const;
-  // They end LAMMPS; the second one where this process alone knows of the problem.
+  // End LAMMPS; fatal_here() if only this process knows of the problem.
   [[noreturn]] void fatal(const std::string &) const;
   [[noreturn]] void fatal_here(const std::string &) const;
 

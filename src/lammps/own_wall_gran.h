@@ -11,9 +11,8 @@
 
 namespace lsdcd {
 
-// `version`: of LAMMPS, as 20210929. `words`: the style's name, with `granular` all its words. The result says
-// what differs, as "its hooke/history multiplies kt by the contact radius"; it is empty where nothing is known
-// to. doc/other-walls.md has the measured table.
+// Returns what differs, as "its hooke/history multiplies kt by the contact radius"; empty: nothing is known to differ. `version`: of
+// LAMMPS, as 20210929. `words`: the style's name, with `granular` all its words. doc/other-walls.md has the measured table.
 std::string wall_gran_difference(int version, const std::string &words, const ContactLaw &law);
 
 }    // namespace lsdcd

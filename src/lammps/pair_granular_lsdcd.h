@@ -40,11 +40,11 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   double memory_usage() override;
 
   std::vector<lsdcd::RunFile> files() const;    // that it has read, on the first process
-  // For compute lsdcd/energy: what pairs of this process have done with it.
+  // Returns what pairs of this process have done with energy, for compute lsdcd/energy.
   const lsdcd::BookedEnergy &booked() const;
 
  protected:
-  // The fix for springs, the list that is asked for, and what the pair keeps as i sees it; empty: nothing.
+  // Return the name of the fix for springs, ask for the list of pairs, and return what a pair keeps as atom i sees it (empty: nothing).
   virtual std::string springs_style() const { return "SPRINGS/LSDCD"; }
   virtual void request_list();
   virtual std::vector<double> kept_numbers(int i, int j);
@@ -61,7 +61,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   int law_index(int i, int j) const { return law_of[i * (n_types + 1) + j]; }
 
  private:
-  // What an atom type may bring: radii of those that move, and of those of fix freeze.
+  // The largest radii that atoms of a type may have: those that move, and those of fix freeze.
   struct Radii {
     double moving = 0, frozen = 0;
     double least = 0, least_mass = 0;    // of those that are there; 0: none is
@@ -103,8 +103,8 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::vector<int> law_of;                   // of types i and j at i * (n_types + 1) + j
   bool has_heat = false, books = false;
   bool adapts = false;    // there is a fix adapt, which may change radii
-  // Radii up to which lists hold grains of each type, at 2 * type, and those of fix freeze, behind it; those of atoms when lists were
-  // made, where there is no fix adapt.
+  // limits: radii up to which lists hold grains of each type, at 2 * type, and those of fix freeze behind it. listed_radius: radii of atoms
+  // when lists were made, if there is no fix adapt.
   std::vector<double> limits, listed_radius;
   class FixSpringsLsdcd *springs = nullptr;    // null: no law has kept anything yet
   class Fix *rigid = nullptr;

@@ -16,7 +16,7 @@ void add_style(const char *kind, void *lmp, void *handle, void *regfunc, const c
 void add_pair_style(void *lmp, void *handle, void *regfunc, const char *name, const char *info,
                     lammpsplugin_factory1 *create);
 
-// As LAMMPS reads it back: a pointer to the kind's own class.
+// Makes a style. LAMMPS reads the result as a pointer to the kind's own class.
 template <class Base, class Guarded>
 void *create_style(void *lmp, int narg, char **arg)
 {
@@ -35,7 +35,7 @@ void *create_pair(void *lmp)
   return made;
 }
 
-// All that do not need Kokkos.
+// Adds all styles that do not need Kokkos.
 void add_plain_styles(void *lmp, void *handle, void *regfunc);
 
 }    // namespace lsdcd

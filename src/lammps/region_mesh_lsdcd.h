@@ -36,7 +36,7 @@ class RegionMeshLsdcd : public Region, protected OwnMessages {
   void log_mesh(const lsdcd::WeldedMesh &) const;
   [[noreturn]] void refuse_surface() const;
 
-  // From the surface.
+  // The mesh, with what distances from its surface need.
   struct Distances {
     lsdcd::WeldedMesh mesh;
     lsdcd::TriangleTable names;

@@ -9,16 +9,17 @@
 
 namespace LAMMPS_NS {
 
-// LAMMPS has no word for it. Rerun initialises all and then the fixes once more before its first
-// snapshot, and sets each snapshot up at its own step; a run is set up once, at its first step. Behind a part of
-// 'run N every M' commands may initialise fixes, at its last step.
+// LAMMPS does not say whether it reruns. Rerun initialises all and then the fixes once more before its first snapshot, and sets each
+// snapshot up at its own step; a run is set up once, at its first step. Behind a part of 'run N every M' commands may initialise fixes, at
+// its last step.
 class RerunWatch {
  public:
   void init(const class Update &);       // in the fix's init()
   void end_run(const class Update &);    // in its post_run(), where may_be_snapshot() is asked
-  // After init(): may this be a snapshot of a rerun? Its atoms may be anywhere, and have the IDs of its dump.
+  // Returns, after init(), whether this may be a snapshot of a rerun. The atoms of a snapshot may be anywhere, and have the IDs of its
+  // dump.
   bool may_be_snapshot(const class Update &) const;
-  // In the fix's setup() or setup_pre_exchange(): is this a snapshot of a rerun?
+  // Returns, in the fix's setup() or setup_pre_exchange(), whether this is a snapshot of a rerun.
   bool sees_snapshot(const class Update &);
 
  private:

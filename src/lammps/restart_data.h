@@ -21,7 +21,7 @@ namespace LAMMPS_NS {
 // LAMMPS hands the same numbers to every process, and does not say how many.
 constexpr std::size_t kAllNumbers = std::size_t(1) << 40;
 
-// The first process calls it. Throws where LAMMPS's file has no room for so many.
+// Writes a state; called by the first process. Throws if LAMMPS's file has no room for so many numbers.
 inline void write_state(FILE *file, const lsdcd::State &state)
 {
   const std::vector<double> numbers = state.numbers();
@@ -32,7 +32,7 @@ inline void write_state(FILE *file, const lsdcd::State &state)
   fwrite(numbers.data(), sizeof(double), numbers.size(), file);
 }
 
-// `without`: what a fix with another ID begins without.
+// Returns the error if a state cannot be used. `without`: what a fix with another ID begins without.
 inline std::string unusable_state(const lsdcd::StateError &e, const std::string &without)
 {
   return std::string("the restart file cannot be used: ") + e.what() +
@@ -40,7 +40,7 @@ inline std::string unusable_state(const lsdcd::StateError &e, const std::string 
          without;
 }
 
-// The log's warning where a later version has written more; empty: this version has read all.
+// Returns the warning if a later version has written more; empty: this version has read all.
 inline std::string unread_state(const lsdcd::State &state)
 {
   const std::string names = state.unread();
@@ -55,15 +55,15 @@ struct RestartRow {
   int size;
 };
 
-// `without`: what is to be done to begin without the data.
+// Throws the error for a damaged row of an atom. `without`: what is to be done to begin without the data.
 [[noreturn]] inline void fail_at_row(const Atom &atom, int i, const char *what, const char *without)
 {
   throw lsdcd::InputError(std::string("the ") + what + " of atom " + std::to_string(atom.tag[i]) +
                           " in the restart file are damaged: " + without);
 }
 
-// Returns what fix number `nth` of those with rows has written for atom i. Throws InputError where it would end past what LAMMPS has
-// read for the atom, whose rows lie one behind the other.
+// Returns what fix number `nth` of those with rows has written for atom i. Throws InputError if the row would end past what LAMMPS has read
+// for the atom, whose rows lie one behind the other.
 inline RestartRow restart_row(const Atom &atom, int i, int nth, const char *what,
                               const char *without)
 {

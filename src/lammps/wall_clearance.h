@@ -28,14 +28,14 @@ class WallClearance {
  public:
   // Copies each mesh that is new.
   void follow(const std::vector<LAMMPS_NS::FixWallLsdcd *> &walls, bool has_meshes);
-  // Before a step: has the meshes ready for it, and asks for the shapes that they will have. Collective.
+  // Makes the meshes of the walls ready for a step, and asks for the shapes that they will have in it. Collective.
   void begin_step();
   // Puts the meshes where they are one timestep after their last one, in those shapes.
   void place(Real dt);
 
-  // Is the sphere's centre at least its radius from every mesh, and from its images?
+  // Returns whether the sphere's centre is at least its radius from every mesh, and from its images.
   bool is_clear(const PackedSphere &sphere, const PeriodicBox &box);
-  // Is the sphere's centre at least its radius from every mesh that has never moved, and from its images?
+  // Returns whether the sphere's centre is at least its radius from every mesh that has never moved, and from its images.
   bool is_clear_at_rest(const PackedSphere &sphere, const PeriodicBox &box);
 
   std::size_t bytes() const;

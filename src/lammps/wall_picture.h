@@ -20,8 +20,8 @@ class WallPicture {
   lsdcd::PictureSpec spec;
 
   bool is_drawn() const { return !objects.empty(); }
-  // For a process that has the meshes. Each object is its kind and a row {atom type, corners}; both arrays
-  // belong to this object. Returns how many there are.
+  // Sets the objects to draw, on a process that has the meshes, and returns how many there are. Each object is its kind and a row {atom
+  // type, corners}; both arrays belong to this class.
   int draw(const lsdcd::Wall &, int *&kinds, double **&rows);
 
  private:
