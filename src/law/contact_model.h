@@ -95,7 +95,7 @@ struct ContactModel {
   }
 };
 
-// With the formulas of LAMMPS 29Sep2021.
+// The laws of the classic styles, with the formulas of LAMMPS 29Sep2021.
 using HookeLaw = ContactModel<HookeNormal, MassVelocityDamping, LinearNoHistory>;
 using HookeHistoryLaw = ContactModel<HookeNormal, MassVelocityDamping, LinearHistory>;
 using HertzHistoryLaw = ContactModel<HertzNormal, MassVelocityDamping, LinearHistory>;

@@ -91,7 +91,7 @@ struct TouchingNormal {
   Real k;       // force/length (hooke), force/length^2
   Real pull;    // 4 pi gamma, force/length; 0 but for dmt
 
-  // Does force() read a, or the radius of the contact?
+  // Returns whether force() reads `a` or Contact::radius.
   LSDCD_FN bool uses_contact_radius() const { return model != NormalModel::hooke; }
   LSDCD_FN Real contact_radius(const Contact &c) const { return sqrt(c.overlap * c.radius); }
   LSDCD_FN Real force(const Contact &c, Real a) const

@@ -83,7 +83,7 @@ class OverlapMonitor {
   // From this overlap on a centre is so near the wall that it may be on the other side in the next step.
   static constexpr Real kThrough = 0.95;
   static constexpr std::size_t kMostNamed = 10;
-  // Where tags have to be fetched from a GPU, only those of deeper spheres are.
+  // If tags must be fetched from a GPU, only those of spheres that overlap by more are.
   static constexpr Real kWorthATag = 0.01;
 
   Host &host_;

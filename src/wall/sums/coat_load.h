@@ -21,7 +21,7 @@ struct CoatLoad {
   Real contacts = 0;                    // how many
   Real overlap = 0;                     // the largest overlap / radius
   Real radius = 0, mass = 0;            // the largest radius and mass of a contact
-  // Where the mesh is a body, in its frame; and bounds of largest() of these.
+  // Set if the mesh is a body: sums in its frame, and bounds of their largest().
   ContactSum stiffness, damping;
   ModeRates most;
   std::uint32_t bodies = 0;    // that it touches: a bit for each mesh
