@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 # Sources are compiled some at a time, as headers take most of the time to compile a source of some hundred lines.
-set(LSDCD_BATCH 8 CACHE STRING "How many sources are compiled together, about; 1: each alone, for who changes one often")
+set(LSDCD_BATCH 8 CACHE STRING "How many sources are compiled together, about, up to 8; 1: each alone, for who changes one often")
+if(LSDCD_BATCH GREATER 8)    # sources of other modules have the same names for what is theirs alone
+  message(FATAL_ERROR "LSDCD_BATCH is ${LSDCD_BATCH}: give 1 to 8")
+endif()
 
 # What runs seldom is compiled with little optimisation, which takes two thirds of the time.
 set(LSDCD_COLD $<$<AND:$<CONFIG:Release>,$<COMPILE_LANGUAGE:CXX>>:-O1>)

@@ -67,9 +67,12 @@ int guard(const Body &body) noexcept
   }
 }
 
-inline void need(const void *pointer, const char *name)
+// Throws where a pointer is null that a call needs. `why`: the reason, where it is not needed always.
+inline void need(const void *pointer, const char *name, const char *why = nullptr)
 {
-  if (!pointer) throw ApiError(LSDCD_ERROR_ARGUMENT, std::string("`") + name + "` is null");
+  if (!pointer)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, std::string("`") + name + "` is null" +
+                                             (why ? std::string(", and ") + why : ""));
 }
 
 inline void check_type(int type)

@@ -121,10 +121,10 @@ Spheres spheres_of(const lsdcd_spheres &s, bool has_heat, bool has_types)
                 {s.mass, "mass"}, {s.force, "force"}, {s.torque, "torque"}};
   for (const auto &one : needed) need(one.pointer, one.name);
   if (has_heat) {
-    need(s.temperature, "temperature");
-    need(s.heat, "heat");
+    need(s.temperature, "temperature", "a law of the wall conducts heat");
+    need(s.heat, "heat", "a law of the wall conducts heat");
   }
-  if (has_types) need(s.type, "type");
+  if (has_types) need(s.type, "type", "laws of the wall go by types");
   const std::ptrdiff_t row = s.row ? s.row : 3;
   if (row < 3 && s.n > 1)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "row is " + std::to_string(row) +

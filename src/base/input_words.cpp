@@ -99,8 +99,9 @@ bool Tokens::is_near(const std::string &word, std::size_t n) const
 Real Tokens::number(const char *what, Real low, Real high)
 {
   Real value = 0;
-  if (done()) fail(std::string("the value of ") + what + " is missing");
-  if (!is_number(peek(), &value)) fail(std::string(what) + " must be a number, not " + quoted());
+  if (done()) fail(std::string("the value of ") + what + " is missing" + behind());
+  if (!is_number(peek(), &value))
+    fail(std::string(what) + " must be a number, not " + quoted() + behind());
   if (value < low || value > high)
     fail(std::string(what) + " = " + peek() + with_origin() + " is out of range: it must be " +
          range_text(low, high));
@@ -134,6 +135,13 @@ int Tokens::choice(const std::vector<std::string> &choices)
 std::string Tokens::with_origin() const
 {
   return origins_ && !(*origins_)[at_].empty() ? " (" + (*origins_)[at_] + ")" : "";
+}
+
+std::string Tokens::behind() const
+{
+  return origins_ && at_ > 0 && !(*origins_)[at_ - 1].empty()
+             ? " (behind " + (*origins_)[at_ - 1] + ")"
+             : "";
 }
 
 void Tokens::refuse_number(const std::string &why) const

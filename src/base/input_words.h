@@ -81,6 +81,8 @@ class Tokens {
 
  private:
   std::string with_origin() const;
+  // Returns what the word before the next one was made of, for messages: " (behind $law, number 5)". Empty: it is written so.
+  std::string behind() const;
   const std::vector<std::string> &tokens_;
   const std::vector<std::string> *origins_;
   std::size_t at_ = 0;

@@ -71,7 +71,10 @@ ProgramWords::ProgramWords(const std::string &text, const std::vector<ProgramVal
                          (names.empty() ? "" : ": " + nearest_or_all(name, names)));
       }
       used.push_back(name);
-      const bool of_matrix = !words_.empty() && words_.back() == "matrix";
+      const std::string before = words_.empty() ? "" : words_.back();
+      const bool of_matrix = before == "matrix";
+      if (value->kind == ProgramValue::Kind::numbers && before == "mesh")
+        throw InputError("in 'mesh', " + word + " is numbers: make a mesh of them");
       if (value->kind == ProgramValue::Kind::text)
         add(value->text);
       else if (value->kind == ProgramValue::Kind::numbers ||

@@ -114,9 +114,13 @@ std::string answer_to(const std::string &word, bool granular)
   const auto row = std::find(names.begin(), names.end(), near);
   if (is_like(word, near)) {
     const std::string of_family = granular || row == names.end() ? answer_to(near, granular) : "";
-    throw InputError(wrong + "; the nearest is '" +
-                     (of_family.empty() ? syntax_of(rows[row - names.begin()]) + "'"
-                                        : near + "': " + of_family));
+    if (!of_family.empty())
+      throw InputError(wrong + "; the nearest is '" + near + "': " + of_family);
+    // That of motion is of some lines.
+    constexpr std::size_t kLongest = 100;
+    const std::string syntax = syntax_of(rows[row - names.begin()]);
+    throw InputError(wrong + "; the nearest is '" + (syntax.size() > kLongest ? near : syntax) +
+                     "'");
   }
   std::string all;
   for (const std::string &name : names) all += (all.empty() ? "" : ", ") + name;

@@ -255,23 +255,23 @@ const char *keyword_of(OutputPart part)
 {
   switch (part) {
     case OutputPart::servo:
-      return "*servo*";
+      return "'servo'";
     case OutputPart::body:
-      return "*body*";
+      return "'body'";
     case OutputPart::wear:
-      return "*wear ... deform*";
+      return "'wear ... deform'";
     case OutputPart::nodes:
-      return "*nodes*";
+      return "'nodes'";
     case OutputPart::means:
-      return "*average*";
+      return "'average'";
     case OutputPart::motion:
-      return "*motion*";
+      return "'motion'";
     case OutputPart::energy:
-      return "*energy*";
+      return "'energy'";
     case OutputPart::impacts:
-      return "*impacts*";
+      return "'impacts'";
     case OutputPart::wear_energy:
-      return "*energy* with *wear ... deform*";
+      return "'energy' with 'wear ... deform'";
     default:
       return "";
   }
@@ -513,9 +513,19 @@ int n_outputs(const WallSpec &wall)
   return columns;
 }
 
+namespace {
+
+// Returns whether a wall has the numbers of a row.
+bool has_row(const WallSpec &wall, const WallOutput &output)
+{
+  return output.part == OutputPart::scalar || has(wall, output.part);
+}
+
+}    // namespace
+
 Real output_value(Wall &wall, int mesh, const WallOutput &output, int d)
 {
-  if (output.part != OutputPart::scalar && !has(wall.spec(), output.part)) return 0;
+  if (!has_row(wall.spec(), output)) return 0;
   if (mesh >= 0) return output.of_mesh(wall, mesh, d);
   if (output.of_all) return output.of_all(wall, d);
   bool (*const owner)(const MeshSpec &) = output.part == OutputPart::servo    ? has_servo
@@ -540,12 +550,6 @@ Real output_of(Wall &wall, int mesh, int column)
 
 namespace {
 
-// Does a wall have the numbers of a row?
-bool has_row(const WallSpec &wall, const WallOutput &output)
-{
-  return output.part == OutputPart::scalar || has(wall, output.part);
-}
-
 const WallOutput *row_of(const std::string &name, int &d)
 {
   for (const WallOutput &output : wall_outputs())
@@ -567,12 +571,10 @@ std::vector<NamedElement> named_outputs(const WallSpec &wall)
   std::vector<NamedElement> all;
   int column = 0;
   for (const WallOutput &output : wall_outputs())
-    for (int d = 0; d < output.row.n; d++, column++) {
-      if (output.part == OutputPart::scalar)
-        all.push_back({output_name(output.row, d), NamedElement::kScalar});
-      else if (has(wall, output.part))
-        all.push_back({output_name(output.row, d), column});
-    }
+    for (int d = 0; d < output.row.n; d++, column++)
+      if (has_row(wall, output))
+        all.push_back({output_name(output.row, d),
+                       output.part == OutputPart::scalar ? NamedElement::kScalar : column});
   return all;
 }
 

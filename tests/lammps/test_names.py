@@ -90,7 +90,7 @@ def test_go_with_the_fix(folder):
 
 @pytest.mark.parametrize("words, says", (
     ("names w forse_z", "in 'names', there is no number 'forse_z': the nearest is 'force_z'"),
-    ("names w servo_push", "the wall needs *servo* for it"),
+    ("names w servo_push", "the wall needs 'servo' for it"),
     ("names w power power", "'power' stands twice"),
     ("names w", "PREFIX and NAME are missing"),
     ("names w-1 power", "the prefix 'w-1' cannot begin the name of a variable"),

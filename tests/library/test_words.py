@@ -197,6 +197,10 @@ def test_a_word_of_programs_behind_a_material():
     (f"{STYLE} mesh $floor", {"floor": MESH, "lid": MESH}, r"the value 'lid' is given, and no word is \$lid"),
     (f"{STYLE} mesh x$floor", {"floor": MESH}, r"'x\$floor': \$NAME is a word of its own"),
     (f"{STYLE} mesh $floor", {"floor": [[0, 0], [1, 1]]}, r"in 'mesh', \$floor is no mesh: make one of the numbers"),
+    (f"{STYLE} mesh $floor", {"floor": [1, 2, 3]}, r"in 'mesh', \$floor is numbers: make a mesh of them"),
+    ("hooke/history $law mesh $floor", {"floor": MESH, "law": [1000, 500, 20, None, 0.5]}, r"not 'mesh' \(behind \$law, number 5\)"),
+    ("hooke/history $law", {"law": [1000, 500, 20, None]}, r"is missing \(behind \$law, number 4\)"),
+    (f"{STYLE} mesh $floor motoin linear 0 0 1", {"floor": MESH}, "'motoin' is not a keyword; the nearest is 'motion'$"),
     (f"{STYLE} mesh floor.stl cache $floor", {"floor": MESH}, r"'\$floor' is a mesh or rows, which stand behind 'mesh', 'motion table' or 'matrix' alone"),
     (f"{STYLE} mesh $floor weld 0.1", {"floor": MESH}, r"in 'weld', the mesh \$floor was welded when it was made"),
     (f"{STYLE} mesh $floor motion table $floor", {"floor": MESH}, r"in 'motion', \$floor has no rows"),
@@ -321,7 +325,7 @@ def test_inputs_of_changes():
 def test_numbers_that_a_wall_does_not_have():
     wall = lsdcd.Wall(f"{STYLE} mesh $floor", floor=MESH)
     for name, keyword in (("servo_push", "servo"), ("dissipated_slider", "energy"), ("impacts", "impacts")):
-        with pytest.raises(lsdcd.Error, match=rf"there is no number '{name}': the wall needs \*{keyword}\* for it"):
+        with pytest.raises(lsdcd.Error, match=rf"there is no number '{name}': the wall needs '{keyword}' for it"):
             wall.outputs(name)
 
 

@@ -129,7 +129,7 @@ TEST(wall_outputs, of_a_wall_are_those_of_its_keywords)
   EXPECT_EQ(named_outputs(wall)[11].name, "dissipated_power_damping");
   EXPECT_EQ(named_outputs(wall)[11].column, 54);
   EXPECT_EQ(why_no_output(wall, "impacts"),
-            "there is no number 'impacts': the wall needs *impacts* for it");
+            "there is no number 'impacts': the wall needs 'impacts' for it");
   EXPECT_EQ(why_no_output(wall, "forse_z"),
             "there is no number 'forse_z': the nearest is 'force_z'");
 }
