@@ -129,12 +129,12 @@ std::string text_of(const SurfaceMotion &surface)
   return text_of(velocity) + ", turning " + text_of(angular) + " about " + text_of(centre);
 }
 
-// Of all kinds of terms, as unused numbers are 0. Kind and inputs, of which displacement and speed are values, are in the
+// Of all kinds of terms, as unused numbers are 0. Kind and inputs, of which displacement, speed and its change are values, are in the
 // text of the motion, as is the table's file, whose rows count.
 std::string numbers_of(const MotionTerm &term)
 {
   const auto &[kind, velocity, amplitude, point, axis, period, angle, input, displacement, speed,
-               table_file, table_options, table] = term;
+               speeding_up, table_file, table_options, table] = term;
   const std::string text = row_of(velocity, amplitude, point, axis, period, angle);
   if (!table) return text;
   const std::vector<Real> &rows = table->rows().numbers;

@@ -48,64 +48,95 @@ Rotation rotation(const Vec3 &k, Real s, Real c)
   return r;
 }
 
+// An angular velocity and its derivative.
+struct Rate {
+  Vec3 velocity = {0, 0, 0}, acceleration = {0, 0, 0};
+};
+
 // Turns the pose about a point, with an angular velocity.
-void turn(Pose &pose, const Vec3 &point, const Rotation &turned, const Vec3 &angular)
+void turn(Pose &pose, const Vec3 &point, const Rotation &turned, const Rate &spin)
 {
+  const Vec3 &angular = spin.velocity;
   Vec3 row[3] = {};
   for (int j = 0; j < 3; j++) {    // columns of the product
     const Vec3 column = turned({pose.row[0][j], pose.row[1][j], pose.row[2][j]});
     for (int i = 0; i < 3; i++) row[i][j] = column[i];
   }
   std::copy(row, row + 3, pose.row);
-  const Vec3 to_arm = cross(angular, turned(pose.shift - point)), v = turned(pose.velocity),
-             w = turned(pose.angular);
+  const Vec3 arm = turned(pose.shift - point), to_arm = cross(angular, arm),
+             v = turned(pose.velocity), w = turned(pose.angular);
   pose.shift = turned(pose.shift) + (point - turned(point));
   pose.acceleration = turned(pose.acceleration) + cross(angular, 2 * v + to_arm);
   pose.spin_up = turned(pose.spin_up) + cross(angular, w);
+  if (!(spin.acceleration == Vec3{0, 0, 0})) {
+    pose.acceleration += cross(spin.acceleration, arm);
+    pose.spin_up += spin.acceleration;
+  }
   pose.velocity = v + to_arm;
   pose.angular = w + angular;
 }
 
-// Turns it about an axis by an angle with sine s and cosine c and angular velocity `omega`.
-void turn(Pose &pose, const Vec3 &point, const Vec3 &axis, Real s, Real c, Real omega)
+// Turns it about an axis by an angle with sine s and cosine c, at `speed`, which grows by `speeding_up` per time.
+void turn(Pose &pose, const Vec3 &point, const Vec3 &axis, Real s, Real c, Real speed,
+          Real speeding_up)
 {
-  turn(pose, point, rotation(axis, s, c), omega * axis);
+  turn(pose, point, rotation(axis, s, c), {speed * axis, speeding_up * axis});
 }
 
-void turn(Pose &pose, const Vec3 &point, const Vec3 &axis, Real angle, Real omega)
+void turn(Pose &pose, const Vec3 &point, const Vec3 &axis, Real angle, Real speed, Real speeding_up)
 {
-  turn(pose, point, axis, std::sin(angle), std::cos(angle), omega);
+  turn(pose, point, axis, std::sin(angle), std::cos(angle), speed, speeding_up);
 }
 
-void turn(Pose &pose, const MotionTerm &m, Time t)
+// Returns the acceleration for Pose of a velocity whose mean in a step of this length is `mean`.
+template <class V>
+V from_mean(const V &mean, const V &velocity, Real step)
+{
+  return (2 / step) * (velocity - mean);
+}
+
+void turn(Pose &pose, const MotionTerm &m, Time t, Real step)
 {
   const Vec3 axis = unit_vector(m.axis);
   if (m.kind == MotionKind::variable_turn) {
-    turn(pose, m.point, axis, m.displacement.x, m.speed.x);
+    turn(pose, m.point, axis, m.displacement.x, m.speed.x, m.speeding_up.x);
     return;
   }
   Real s, c;
   sine_cosine(t, m.period, s, c);
   const Real omega = kTwoPi / m.period;
-  if (m.kind == MotionKind::riggle)
-    turn(pose, m.point, axis, m.angle * s, m.angle * omega * c);
-  else
-    turn(pose, m.point, axis, s, c, omega);
+  if (m.kind != MotionKind::riggle) {
+    turn(pose, m.point, axis, s, c, omega, 0);
+    return;
+  }
+  const Real speed = m.angle * omega * c;
+  Real speeding_up = 0;
+  if (step > 0) {
+    Real before, unused;
+    sine_cosine(t - step, m.period, before, unused);
+    speeding_up = from_mean(m.angle * (s - before) / step, speed, step);
+  }
+  turn(pose, m.point, axis, m.angle * s, speed, speeding_up);
 }
 
-// As all terms do: it turns about the point, and then goes on.
-void follow_table(Pose &pose, const MotionTerm &m, Time t)
+// Turns the pose about the point of a table's motion and moves it on, as all terms do.
+void follow_table(Pose &pose, const MotionTerm &m, Time t, Real step)
 {
   const TablePlace place = m.table->at(t);
+  TablePlace mean;    // its velocities are the means of the step
+  if (step > 0) mean = m.table->mean_before(t, step);
   if (m.table->turns_about_axis()) {
-    turn(pose, m.point, unit_vector(m.axis), place.angle, place.speed);
+    turn(pose, m.point, unit_vector(m.axis), place.angle, place.speed,
+         step > 0 ? from_mean(mean.speed, place.speed, step) : 0);
   } else if (m.table->turns()) {
     Rotation turned;
     rows_of(place.turn, turned.row);
-    turn(pose, m.point, turned, place.angular);
+    turn(pose, m.point, turned,
+         {place.angular, step > 0 ? from_mean(mean.angular, place.angular, step) : Vec3{0, 0, 0}});
   }
   pose.shift += place.shift;
   pose.velocity += place.velocity;
+  if (step > 0) pose.acceleration += from_mean(mean.velocity, place.velocity, step);
 }
 
 // The displacement of a term and its derivative.
@@ -134,6 +165,21 @@ void shift_of(const MotionTerm &m, Time t, Vec3 &shift, Vec3 &velocity)
   }
 }
 
+// Moves the pose on by the displacement of a term.
+void shift(Pose &pose, const MotionTerm &m, Time t, Real step)
+{
+  Vec3 shift, velocity;
+  shift_of(m, t, shift, velocity);
+  pose.shift += shift;
+  pose.velocity += velocity;
+  if (m.kind == MotionKind::variable) pose.acceleration += m.speeding_up;
+  if (m.kind == MotionKind::wiggle && step > 0) {
+    Vec3 before, unused;
+    shift_of(m, t - step, before, unused);
+    pose.acceleration += from_mean((1 / step) * (shift - before), velocity, step);
+  }
+}
+
 }    // namespace
 
 Vec3 unit_vector(const Vec3 &a)
@@ -157,33 +203,30 @@ void RigidMotion::stop()
 }
 
 // Each term maps x to R (x - point) + point + shift; R is 1 where it does not turn.
-Pose RigidMotion::terms_at(Time t) const
+Pose RigidMotion::terms_at(Time t, Real step) const
 {
   if (is_posed_) return posed_;
   Pose pose = start_;
   if (moves()) pose.placed = true;
   for (const MotionTerm &m : terms_) {
     if (m.kind == MotionKind::table) {
-      follow_table(pose, m, t);
+      follow_table(pose, m, t, step);
       continue;
     }
-    Vec3 shift, velocity;
-    shift_of(m, t, shift, velocity);
-    if (m.turns()) turn(pose, m, t);
-    pose.shift += shift;
-    pose.velocity += velocity;
+    if (m.turns()) turn(pose, m, t, step);
+    shift(pose, m, t, step);
   }
   return pose;
 }
 
-Pose RigidMotion::pose_at(Time t) const
+Pose RigidMotion::pose_at(Time t, Real step) const
 {
-  Pose pose = terms_at(t);
+  Pose pose = terms_at(t, step);
   const Servo &s = servo_;
   if (!s.present) return pose;
   pose.placed = true;
   if (s.turns) {
-    turn(pose, s.point, s.axis, s.position, s.velocity);
+    turn(pose, s.point, s.axis, s.position, s.velocity, 0);
   } else {
     pose.shift += s.position * s.axis;
     pose.velocity += s.velocity * s.axis;

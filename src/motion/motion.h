@@ -18,7 +18,8 @@
 
 namespace lsdcd {
 
-// cosine: `wiggle` of fix wall/gran, which begins at rest: x + A (1 - cos(2 pi t/period)). riggle: a turn to and fro, by
+// cosine: `wiggle` of fix wall/gran, which begins at rest: x + A (1 - cos(2 pi t/period)). As there, grains meet its velocity of the whole
+// step. riggle: a turn to and fro, by
 // the angle A sin(2 pi t/period). variable and variable_turn: what inputs say. table: rows.
 enum class MotionKind {
   linear,
@@ -45,6 +46,7 @@ struct MotionTerm {
   // a velocity is the difference of displacements, and a displacement the sum of velocities.
   int input[6] = {kNoInput, kNoInput, kNoInput, kNoInput, kNoInput, kNoInput};
   Vec3 displacement = {0, 0, 0}, speed = {0, 0, 0};
+  Vec3 speeding_up = {0, 0, 0};    // how fast an input's speed has changed in the step
   // kind table: null until its file is read.
   std::string table_file;
   TableOptions table_options;
@@ -106,9 +108,10 @@ class RigidMotion {
   // Returns the pose at time t since the terms began. It depends only on t and the values of variables, so that it is as
   // exact after 1e9 steps as after one. After a whole number of periods a term gives the bits that it began with. A time
   // that differs from such a number only by rounding counts as that number.
-  Pose terms_at(Time t) const;
+  // `step`: how long the step takes that ends at t (time); 0: none does, and accelerations are those by turning alone.
+  Pose terms_at(Time t, Real step = 0) const;
   // Returns the pose at time t since the terms began, with the servo where it is now.
-  Pose pose_at(Time t) const;
+  Pose pose_at(Time t, Real step = 0) const;
 
   // Returns the longest period of the terms; that of a table is the time of its last row. 0: no term has one.
   Real longest_period() const;

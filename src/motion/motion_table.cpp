@@ -269,6 +269,17 @@ TablePlace MotionTable::at(Time t) const
   return place;
 }
 
+TablePlace MotionTable::mean_before(Time t, Real step) const
+{
+  const TablePlace from = at(t - step), to = at(t);
+  TablePlace mean;
+  mean.velocity = (1 / step) * (to.shift - from.shift);
+  // A table that repeats may end whole turns from where it begins.
+  mean.speed = std::remainder(to.angle - from.angle, 2 * kPi) / step;
+  if (turns() && !turns_about_axis()) mean.angular = (1 / step) * turn_between(from.turn, to.turn);
+  return mean;
+}
+
 // `since`: the time since that row; of the last row 0.
 void MotionTable::follow(TablePlace &place, std::size_t row, Real since) const
 {

@@ -14,7 +14,8 @@ struct Pose {
   // Velocity of the mesh's origin, and angular velocity (right-handed), both in the frame of the box.
   Vec3 velocity = {0, 0, 0};    // length/time
   Vec3 angular = {0, 0, 0};     // 1/time
-  // The derivatives of velocity and angular that are due to turning. Accelerations of a wiggle or a servo are left out.
+  // How velocity and angular change: by turning, their derivatives; by a motion whose speed varies, such that the velocity less half a step's
+  // acceleration is the mean velocity of the step. The speed of a servo is that of the step and has no change.
   Vec3 acceleration = {0, 0, 0};    // length/time^2
   Vec3 spin_up = {0, 0, 0};         // 1/time^2
   bool placed = false;              // false: the mesh is where its file puts it, and stays there

@@ -80,7 +80,9 @@ void MeshMotion::read_tables(std::vector<MotionTerm> &terms) const
 void MeshMotion::begin(const Step &now)
 {
   clock_ = {0, now.number, now.number, now.dt};
-  surface_ = spec().surface;
+  last_step_ = 0;
+  surface_ = surface_now_ = spec().surface;
+  has_values_ = false;
   place();
 }
 
@@ -120,8 +122,10 @@ bool MeshMotion::adds_up() const
 
 void MeshMotion::take_inputs(const std::vector<Real> &inputs)
 {
-  for_inputs(spec(), surface_,
+  for_inputs(spec(), surface_now_,
              [&](int input, Real &value) { value = inputs.at(static_cast<std::size_t>(input)); });
+  surface_ = surface_now_;
+  has_values_ = true;
 }
 
 Real MeshMotion::advance(const Step &to, const std::vector<Real> &inputs)
@@ -131,17 +135,41 @@ Real MeshMotion::advance(const Step &to, const std::vector<Real> &inputs)
   const Time before = clock_.now();
   clock_.advance(to);
   const Real passed = static_cast<Real>(clock_.now() - before);
+  last_step_ = to.kind == Step::step ? passed : 0;
   std::vector<MotionTerm> &terms = spec().motion.terms();
   const std::vector<MotionTerm> was = terms;
+  const SurfaceMotion surface_was = surface_now_;
+  const bool knows_last = has_values_;    // else speeds count as even in this step
   take_inputs(inputs);
-  for (std::size_t i = 0; i < terms.size() && passed > 0; i++)
+  for (std::size_t i = 0; i < terms.size() && passed > 0; i++) {
+    MotionTerm &m = terms[i];
     for (int d = 0; d < 3; d++) {
-      if (terms[i].takes_difference(d))
-        terms[i].speed[d] = (terms[i].displacement[d] - was[i].displacement[d]) / passed;
-      if (terms[i].adds_up(d))
-        terms[i].displacement[d] += passed * (was[i].speed[d] + terms[i].speed[d]) / 2;
+      const Real shift = m.displacement[d] - was[i].displacement[d], before = was[i].speed[d];
+      m.speeding_up[d] = 0;
+      if (m.takes_difference(d)) {
+        m.speed[d] = shift / passed;
+      } else if (m.input[3 + d] != kNoInput) {
+        Real mean = (before + m.speed[d]) / 2;
+        if (m.adds_up(d))
+          m.displacement[d] += passed * mean;
+        else    // places may jump, as those of an angle by a whole turn: that is no speed
+          mean = std::clamp(shift / passed, std::min(before, m.speed[d]),
+                            std::max(before, m.speed[d]));
+        if (knows_last) m.speeding_up[d] = 2 / passed * (m.speed[d] - mean);
+      }
     }
+  }
+  // A surface goes on in a step by the mean of what inputs say before and after it.
+  if (spec().surface_varies() && knows_last && passed > 0 && to.velocities_behind() > 0) {
+    surface_.velocity = 0.5 * (surface_was.velocity + surface_now_.velocity);
+    surface_.angular = 0.5 * (surface_was.angular + surface_now_.angular);
+  }
   return passed;
+}
+
+void MeshMotion::place()
+{
+  pose_ = spec().motion.pose_at(clock_.now(), last_step_);
 }
 
 Pose MeshMotion::pose_in(Time later) const

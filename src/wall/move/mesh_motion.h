@@ -24,7 +24,8 @@ class MeshMotion {
   const Pose &pose() const { return pose_; }    // in this step
   // Returns the pose in the step before or, if no time has passed since then, in this step.
   const Pose &pose_before() const { return has_before_ ? before_ : pose_; }
-  const SurfaceMotion &surface_motion() const { return surface_; }    // in this step
+  // Returns how the surface moves by itself, at the time of the spheres' velocities.
+  const SurfaceMotion &surface_motion() const { return surface_; }
 
   bool moves_or_varies() const;    // does the engine see a motion?
   bool has_inputs() const;
@@ -38,7 +39,7 @@ class MeshMotion {
   // Takes the values of inputs, which advance() takes in each step.
   void take_inputs(const std::vector<Real> &inputs);
   // Puts the mesh where the motion and the servo have it now.
-  void place() { pose_ = pose_in(0); }
+  void place();
   Pose pose_in(Time later) const;    // that much time from now
   Pose pose_without_servo() const;
 
@@ -77,7 +78,9 @@ class MeshMotion {
   StepClock clock_;
   Pose pose_, before_;
   bool has_before_ = false;
-  SurfaceMotion surface_;
+  Real last_step_ = 0;                     // how long it was; 0: none has led to this place
+  SurfaceMotion surface_, surface_now_;    // half a step ago, and now
+  bool has_values_ = false;                // of inputs, since begin()
 };
 
 }    // namespace lsdcd
