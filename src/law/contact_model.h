@@ -77,6 +77,10 @@ struct ContactModel {
       parts.friction = friction_spring(c, begun, shear);
     else
       parts.slides = is_below(out.tangential, c.mass * tangential.gamma, c.v_tangent);
+    if constexpr (kHistory && Normal::kUsesContactRadius) {
+      parts.limit = tangential.mu * fabs(out.normal);
+      parts.dashpot_slides = scale(c) * c.mass * tangential.gamma * norm(c.v_tangent) > parts.limit;
+    }
     return parts;
   }
   // Returns the spring of friction in a step. Its displacement was `begun` and is now `shear`.
@@ -152,11 +156,13 @@ struct AddedModel {
   LSDCD_FN ForceParts parts(const C &c, const ContactMemory<kExtra> &begun,
                             const ContactMemory<kExtra> &memory, const FullForce &out) const
   {
-    ForceParts parts = base.parts(c, begun.shear, memory.shear, out);
+    ContactForce of_base = out;
+    if (cohesion.is_on()) of_base.normal = out.normal + cohesion.pull(c);
+    ForceParts parts = base.parts(c, begun.shear, memory.shear, of_base);
     if (rolling.is_on()) {
       const Real scale = base.scale(c);
-      const Real limit = fabs(out.normal + (cohesion.is_on() ? cohesion.pull(c) : 0));
-      const RollingInput<C> in = {c, limit, base.elastic.secant(c, scale), scale * k_tangent};
+      const RollingInput<C> in = {c, fabs(of_base.normal), base.elastic.secant(c, scale),
+                                  scale * k_tangent};
       rolling.part(in, begun, memory, 0, parts);
     }
     if (cohesion.is_on()) parts.elastic -= cohesion.pull(c);
@@ -281,7 +287,11 @@ struct GranularModel {
     parts.elastic = f - pull;
     if (tangential.spring)
       parts.friction = tangential.part(c, a, begun, memory, kRadius, tangential.mu * limit);
-    else
+    if (tangential.may_slave_spring()) {
+      parts.limit = tangential.mu * limit;
+      parts.dashpot_slides = tangential.xgammat * gamma * norm(c.v_tangent) > parts.limit;
+    }
+    if (!tangential.spring)
       parts.slides = is_below(out.tangential, tangential.xgammat * gamma, c.v_tangent);
     if constexpr (kFull) {
       rolling.part(RollingInput<C>{c, limit, elastic.secant(c, a), tangential.stiffness(a)}, begun,

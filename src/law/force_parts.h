@@ -35,6 +35,10 @@ struct ForceParts {
   Real elastic;           // normal force without damping
   SpringPart friction;    // of the tangential force
   bool slides;            // friction without a spring is at its limit
+  // In a law that leaves its spring what the limit and the dashpot do not balance, and whose stiffness varies: the dashpot of friction
+  // alone is beyond the limit (force).
+  bool dashpot_slides;
+  Real limit;             // of friction; set only in such a law
   SpringPart rolling;     // of the contact torque across the normal
   Vec3 rolls;             // the angular velocity by which that spring turns
   SpringPart twisting;    // of the contact torque about the normal
@@ -51,7 +55,12 @@ struct KeptForces {
   Vec3 friction, friction_spring;            // the tangential force, and that of its spring
   Vec3 rolling, rolling_spring;              // contact torques across the normal
   Real twisting, twisting_spring;            // about it
-  Real k_friction, k_rolling, k_twisting;    // stiffnesses of the springs, 0 without
+  Real k_friction, k_rolling, k_twisting;    // stiffnesses of the springs, 0 without; kSlaved
+
+  // In place of k_friction: the spring is no store of energy, because it only makes up for a dashpot that is beyond the limit. What it
+  // would hold, F^2/2k, has no bound where k goes to 0. `friction_spring` is 0 then, and all that friction does is the slider's loss.
+  static constexpr Real kSlaved = -1;
+  LSDCD_FN bool is_slaved() const { return k_friction == kSlaved; }
 
   // Returns which of the numbers change sign if the spheres of a pair change places: the vectors.
   static constexpr unsigned flips() { return 0xfffu << 6; }

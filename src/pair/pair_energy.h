@@ -153,14 +153,6 @@ LSDCD_FN void book_new_pair(const Law &law, const MakePair &make_pair,
   evaluate_pair(HeardLaw<Law>{law, &c, &f}, make_pair(), memory, unused);
   if (!c.update) memory = begun;
   const ForceParts parts = law.parts(c, begun, memory, f);
-  KeptForces now = kept_of(law, c.normal, f, parts, 1, 0, 0);
-  now.held = held_of(law, c, f, 1, now);
-  write_kept(now, numbers, of_law);
-  rows[EnergyRow::held] += now.held;
-  if (!c.update) return;
-
-  const GrainPair p = make_pair();
-  add_pair_half(law, pair_motion(law, p, p.offset), now, p.dt, rows);
   KeptForces old = {};
   if (!!old_numbers) {
     old = read_kept(old_numbers, of_law);
@@ -173,9 +165,16 @@ LSDCD_FN void book_new_pair(const Law &law, const MakePair &make_pair,
       turn(parts.rolling, old.rolling);
       turn(parts.rolling, old.rolling_spring);
     }
-  } else {
-    begin_pair(law, p, c, rows);
   }
+  KeptForces now = kept_of(law, c.normal, f, parts, slaves_spring(c, parts, old), 1, 0, 0);
+  now.held = held_of(law, c, f, 1, now);
+  write_kept(now, numbers, of_law);
+  rows[EnergyRow::held] += now.held;
+  if (!c.update) return;
+
+  const GrainPair p = make_pair();
+  add_pair_half(law, pair_motion(law, p, p.offset), now, p.dt, rows);
+  if (!old_numbers) begin_pair(law, p, c, rows);
   book_springs(law, c, parts, 1, now, old, rows);
 }
 

@@ -130,7 +130,7 @@ void Wall::make_engine()
 }
 
 // Replaces the engine where one for other settings, or on another device, is due. What the last one knows of its step is asked for first.
-void Wall::settle(const HostSpheres &spheres, const StepInput &input)
+void Wall::replace_engine_if_due(const HostSpheres &spheres, const StepInput &input)
 {
   const bool chooses_device =
       (input.look || is_set_up_) && input.step.kind == Step::step && device_.is_open();
@@ -200,7 +200,7 @@ void Wall::begin_run(std::int64_t step, bool virial)
 
 void Wall::begin(const HostSpheres &spheres, const StepInput &input)
 {
-  settle(spheres, input);
+  replace_engine_if_due(spheres, input);
   open_step(spheres, input);
   if (!changing_.empty()) change_surfaces(input.step);
   if (!moving_.empty()) move(spheres);
@@ -371,7 +371,7 @@ ServoLoad Wall::servo_load(int mesh)
           meshes_[mesh].bounds(0)};
 }
 
-void Wall::choose_if_due(const Spheres &spheres)
+void Wall::search_if_due(const Spheres &spheres)
 {
   if (!with_nodes_.empty()) place_nodes(with_nodes_, *engine_, cutoff(), spheres.n);
   std::vector<MovingMesh> moving;
@@ -428,7 +428,7 @@ void Wall::submit(const HostSpheres &spheres)
   guard(spheres, [&] {
     const StepSettings step = step_settings();
     times_.begin();
-    choose_if_due(spheres);
+    search_if_due(spheres);
     times_.end(TimeReport::choice);
     engine_->submit(spheres, step);
     if (engine_->is_under_way()) times_.end(TimeReport::forces);
@@ -517,18 +517,19 @@ void Wall::note_step(const HostSpheres &spheres)
 }
 
 // Adds a step to what is recorded by triangle.
-void Wall::record(const StepResults *left)
+void Wall::record(const StepResults *of_step)
 {
   const Real dt = input_.step.dt;
-  const EnergyRecords records = left ? left->energy_records() : EnergyRecords();
+  const EnergyRecords records = of_step ? of_step->energy_records() : EnergyRecords();
   const std::vector<EnergyRecord> &of_coats = coats_.energy().records;
-  const bool has_contacts = left || !of_coats.empty();
+  const bool has_contacts = of_step || !of_coats.empty();
   const auto part = [&](const MeshPart &m) -> RecordedMesh {
     return {m.index, m.feature_counts(), has_contacts ? m.records() : MeshFeaturesView()};
   };
-  for (const MeshPart *m : recorded_) loads_.add(part(*m), left ? &left->contacts() : nullptr, dt);
+  for (const MeshPart *m : recorded_)
+    loads_.add(part(*m), of_step ? &of_step->contacts() : nullptr, dt);
   for (const MeshPart *m : with_energy_records_)
-    records_.add(part(*m), left ? &records : nullptr,
+    records_.add(part(*m), of_step ? &records : nullptr,
                  {of_coats.data(), static_cast<int>(of_coats.size())}, dt);
 }
 

@@ -45,7 +45,7 @@ struct WallBackend {
 
 // The host's units.
 struct WallUnits {
-  Real pressure = 1;    // a force per area of 1, in the unit of pressure
+  Real pressure = 1;    // how many units of pressure a force per area of 1 is
   Real velocity = 1;    // a force times time over a mass, in the unit of velocity
 };
 
@@ -66,18 +66,18 @@ class Wall {
   const WallSpec &spec() const { return spec_; }    // pressures are forces per area
   const LawTable &laws() const { return laws_; }
   const std::deque<MeshPart> &meshes() const { return meshes_; }
-  // Returns which of spec().inputs a step reads, by their numbers: first those of motions, then temperatures.
+  // Returns which of spec().inputs a step reads, by their numbers: those of motions, then of temperatures, then of pressures.
   std::vector<int> inputs_read() const;
   Real cutoff() const { return grids_.cutoff(); }    // length; 0: there were no spheres yet
   HistoryExchange &history() { return history_; }
   std::size_t bytes() const;    // memory of this process
 
-  // Prepares for a run; called before each one. `virial`: add_virial() may be called in that run.
+  // Prepares for a run; called before each one. `virial`: add_virial() may be called in that run, so that its steps keep what it needs.
   void begin_run(std::int64_t step, bool virial);
 
   // Begins a step: advances the clock, moves the meshes, and rebuilds grids that no longer fit. If spheres are in the memory of a GPU, work
-  // that is in the host's stream now may still write their arrays: the step waits for that, but for nothing that comes into the stream
-  // later. If there are several processes and one of them fails, finish() throws its error later, after all processes have reached it.
+  // that is in the host's stream now may still write their arrays, and the step waits for that work. It does not wait for work that the
+  // host puts into the stream later. If there are several processes and one of them fails, finish() throws its error later, after all processes have reached it.
   void begin(const HostSpheres &spheres, const StepInput &input);
   // Moves the vertices of meshes that change by themselves, as by wear, if this is due in this step. A host that reads the surface before
   // begin() calls this function first; otherwise begin() does.
@@ -85,7 +85,7 @@ class Wall {
   // Searches for the candidates, the spheres near the wall, if a search is due, and starts the step if the engine can work while the host
   // does. Local.
   void submit(const HostSpheres &spheres);
-  // Returns how far the step has come. StepState::none means that no step was begun, or that a step without spheres was. Local.
+  // Returns how far the step has come. StepState::none means that no step was begun, or that the step has no spheres. Local.
   StepState step_state() const { return engine_->state(); }
   // Adds forces and torques to those of the spheres. Submits the step first if the host has not done so.
   void finish(const HostSpheres &spheres);
@@ -95,13 +95,14 @@ class Wall {
   // Reads what steps have noted about these spheres since the last call. Must be called before spheres change their order or process,
   // because notes name spheres by their index. Throws InputError if a step had to leave out a sphere. Local.
   void poll_diagnostics(const HostSpheres &spheres);
-  // Returns the deepest overlap (length) that this process has read since begin_run(), if the host has its arrays in float.
+  // Returns the deepest overlap (length) that this process has read since begin_run(), if the host has its arrays in
+  // float; 0 otherwise. Local.
   Real deepest_overlap() const { return deepest_overlap_; }
   // Warns if spheres went too far past a periodic face. A host that does not know how far spheres move calls it before it wraps them.
   // Positions and groups are read in the memory in which the engine reads them.
   void check_wrapping(const Spheres &spheres) { grids_.check_wrapping(spheres); }
   // Ends a run and logs a summary. In the log `advice` follows the number of candidate searches. `loop`: the time of the run in seconds, or
-  // 0 if it is not known.
+  // 0 if it is not known. `far`: spheres may have gone far, so that check_wrapping() is due.
   void end_run(const HostSpheres &spheres, bool far, const std::string &advice, Real loop);
 
   // Returns the totals of the last step, summed over all processes.
@@ -126,8 +127,8 @@ class Wall {
   // Returns the forces of the last step on the nodes of a mesh with has_nodes, x y z, node after node: those of contacts and of its
   // pressure, summed over all processes.
   const std::vector<Real> &node_forces(int mesh);
-  // Writes this process's share of node_forces() to `to`, which must be in the memory in which the wall computes; see
-  // MeshNodes::put_forces(). Local.
+  // Writes node_forces() to `to`, which must be in the memory in which the wall computes; node_of_row[k] is the node in row k. Returns
+  // false if there are no forces, or not those of all processes. Local.
   bool put_node_forces(int mesh, Real *to, const std::vector<int> &node_of_row);
   // Adds the sum of arm times force over the contacts of this process, an energy, to six numbers: xx, yy, zz, xy, xz, yz. Local.
   void add_virial(Real *virial) const;
@@ -150,7 +151,7 @@ class Wall {
   // Sets the values of spec().inputs in the step that was saved. Called before restore(): bodies end that step with these values, and
   // pressures act on nodes with them.
   void restore_inputs(const std::vector<Real> &values);
-  // Replaces the names of inputs. One of the two lists begins with the other.
+  // Replaces the names of inputs. Names may be added to the end of the list, or taken from it; others stay in their places.
   void set_inputs(const InputNames &inputs);
   // Returns why this mesh cannot have a motion, servo or pose, or an empty text if it can. Local.
   std::string why_it_takes_no_motion(int mesh) const { return meshes_[mesh].mover.why_no_motion(); }
@@ -208,10 +209,10 @@ class Wall {
     return engine_input_.settings(device_.device(), virial_, !bodies_.empty());
   }
   void make_engine();
-  void settle(const HostSpheres &spheres, const StepInput &input);
+  void replace_engine_if_due(const HostSpheres &spheres, const StepInput &input);
   Real most_candidates();
   void log_creation(const std::string &material, const WallBackend &backend) const;
-  void log_device(Real near);
+  void log_device(Real near);    // `near`: most_candidates()
 
   // Keep the error of one process in a step.
   template <class Work>
@@ -235,7 +236,7 @@ class Wall {
   }
 
   // The parts of submit().
-  void choose_if_due(const Spheres &spheres);
+  void search_if_due(const Spheres &spheres);    // for candidates
   StepSettings step_settings();
 
   // The parts of finish().
@@ -243,7 +244,7 @@ class Wall {
   StepResults *results() const;
   void note_poses();
   void note_step(const HostSpheres &spheres);
-  void record(const StepResults *left);
+  void record(const StepResults *of_step);    // by triangle; null: this process has none
   void log_new_springs(const Step &step);
   StepDiagnostics read_diagnostics(const HostSpheres &spheres);
   void check_new_spheres(const HostSpheres &spheres);
@@ -296,12 +297,12 @@ class Wall {
   BodyCoats coats_;
 
   // The engine, and what decides its settings and its device. make_engine() makes an engine in the constructor, and in begin() if
-  // settle() finds that another one is due.
+  // replace_engine_if_due() finds that another one is due.
   EngineInput engine_input_;
   DeviceChoice device_;
   std::unique_ptr<WallEngine> engine_;
 
-  // What make_engine() notes of the engine. settle() reads whether its laws are compiled for meshes that move, and for contacts that are
+  // What make_engine() notes of the engine. replace_engine_if_due() reads whether its laws are compiled for meshes that move, and for contacts that are
   // asked for. submit() reads whether each step reads contacts for loads or wear.
   bool engine_moves_ = false, engine_contacts_ = false;
   bool reads_loads_ = false;

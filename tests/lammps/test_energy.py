@@ -375,6 +375,131 @@ def test_belt(folder):
     close("the books close", b["remainder"], 0, lost, 1e-11)
 
 
+RIDE = lmp.head("-3 3 -3 3 -1 5") + """\
+create_atoms    1 single {x} units box
+set             group all diameter 1.0 mass 1
+pair_style      zero 1.2
+pair_coeff      * *
+fix             move all {move}
+{words}
+fix             wall all wall/lsdcd {law} mesh floor.stl {motion} energy
+{after}
+""" + TELL
+LIFT, PERIOD = 0.002, 0.25    # at most 1.3 of gravity's 10: the grain stays on the floor
+SHAKES = {
+    "wiggle": f"motion wiggle 0 0 {LIFT} {PERIOD}",
+    "a table": "motion table lift.txt",
+    "straight rows": "motion table lift.txt linear",
+    "places": "motion variable NULL NULL v_z NULL NULL NULL",
+    "velocities": "motion variable NULL NULL NULL NULL NULL v_vz",
+    "both": "motion variable NULL NULL v_z NULL NULL v_vz",
+}
+
+
+def ride(folder, motion, law, dt, n, x="0.3 0.2 0.499", move="nve/sphere", after="fix down all gravity 10 vector 0 0 -1"):
+    """The last row of n steps of a grain on a floor that moves, and what the grain has gained: with its velocities of whole steps the half kick of a force F
+    is in them, whose energy (dt F)^2/8 the work of whole steps does not have. `after`: what acts after the wall."""
+    words = f"""\
+variable        z equal {LIFT}*sin({2 * math.pi / PERIOD!r}*step*{dt!r})
+variable        vz equal {LIFT * 2 * math.pi / PERIOD!r}*cos({2 * math.pi / PERIOD!r}*step*{dt!r})
+variable        speed equal 0.2*step*{dt!r}
+variable        high equal z[1]
+variable        push equal fx[1]^2+fy[1]^2+fz[1]^2
+"""
+    columns = " ".join((*COLUMNS, "v_high", "v_push"))
+    text = lmp.run_well(RIDE.format(x=x, move=move, words=words, law=law, motion=motion, after=after, dt=repr(dt), columns=columns, run=f"run {n}"), folder)
+    row, (high, push) = row_of(text), lmp.read_thermo(text)[-1][-2:]
+    return row, row["ke"] + row["spin"] - dt ** 2 * push / 8 + 10 * (high - float(x.split()[2])) + row["held"] + row["inserted"]
+
+
+def test_walls_that_shake(folder):
+    """The work of a floor whose speed varies is the energy that a grain on it gains, where nothing is lost: its velocity in a step is the way
+    that it goes in it, over dt. So the work of a linear spring is exact, whatever dt is."""
+    rows = "".join(f"{k * PERIOD / 40!r} 0 0 {LIFT * math.sin(2 * math.pi * k / 40)!r}\n" for k in range(60))
+    (folder / "lift.txt").write_text(rows)
+    for name, motion in SHAKES.items():
+        for n in (25, 100):
+            dt = 2 * math.pi / 100 / n
+            b, gained = ride(folder, motion, "hooke 1e4 NULL 0 NULL 0 0", dt, round(0.2 / dt))
+            fact(f"{name}, {n} steps a swing: the floor has worked", abs(b["drive"]) > 1e-3, b)
+            at_most(f"{name}, {n}: work of the floor over what the grain has gained",
+                    abs(b["drive"] - gained) / abs(b["drive"]), 1e-10)
+            at_most(f"{name}, {n}: remainder", abs(b["remainder"]) / abs(b["drive"]), 1e-10)
+
+
+def test_wall_that_riggles(folder):
+    """A floor that turns to and fro below a grain: the way of a point of it is the mean velocity of the step up to dt^2."""
+    errors = []
+    for n in (25, 50, 100, 200):
+        dt = 2 * math.pi / 100 / n
+        b, gained = ride(folder, "motion riggle -1 0 0 0 1 0 0.1 0.25", "hooke 1e4 NULL 0 NULL 0 0", dt, round(0.2 / dt))
+        fact("the floor has worked", abs(b["drive"]) > 1e-3, b)
+        errors.append((b["drive"] - gained) / b["drive"])
+    print("errors of the work:", errors)
+    for one, other in zip(errors, errors[1:]):
+        fact("it falls with dt^2", 3.8 < one / other < 4.2, errors)
+
+
+def test_belt_that_speeds_up(folder):
+    """A grain that does not turn hangs on a belt by the spring of friction, and the belt speeds up at 0.2 from rest: x'' = w^2 (a t^2/2 - x), so that
+    the belt has worked m a^2 (t^2/2 - t sin(w t)/w + (1 - cos(w t))/w^2)."""
+    a, k, t = 0.2, 400.0, 0.4
+    w = math.sqrt(k)
+    wanted = a * a * (t * t / 2 - t * math.sin(w * t) / w + (1 - math.cos(w * t)) / w ** 2)
+    errors = []
+    for n in (20, 40, 80):
+        b, _ = ride(folder, "surface_vel v_speed 0 0", f"hooke/history 1e4 {k} 0 0 100 0", t / n / 4, 4 * n, x="0.3 0.2 0.49", move="nve",
+                    after="fix high all setforce NULL NULL 0")
+        errors.append(b["drive"] - wanted)
+    print("errors of the work:", errors, wanted)
+    for one, other in zip(errors, errors[1:]):
+        fact("they fall with dt^2", 3.8 < one / other < 4.2, errors)
+    at_most("at 80 steps", abs(errors[-1]) / wanted, 1e-3)
+
+
+# ---- springs of a stiffness that goes to 0 -----------------------------------------------
+
+def aslant(folder, law, dt, z):
+    """The last row of one bounce of a ball that comes aslant."""
+    return books(folder, law, dt, f"run {round(0.08 / dt)}", x=f"0.3 0.2 {z!r}", v="1 0 -1")
+
+
+def test_springs_that_only_make_up_for_a_dashpot(folder):
+    """As the overlap goes to 0, so does the stiffness of mindlin, and LAMMPS's form leaves its spring what the dashpot is beyond the limit: F^2/2k
+    would have no bound. Rows of slider and stiffness converge, for whatever the overlap of the first step is."""
+    for law in ("granular hertz 1e5 5 damping velocity tangential mindlin 1e5 1 0.2", "granular hertz 1e5 0.5 damping tsuji tangential mindlin 1e5 1 0.2",
+                "hertz/history 1e5 1e5 20 40 0.2 0"):
+        rows = {}
+        for dt in (2e-4, 1e-4, 5e-5, 2.5e-5):
+            # The last fall of each touches by as little as a double can.
+            touches = [0.5 + (3 + k / 4) * dt for k in range(4)] + [0.5 + 4 * dt - 1e-16]
+            rows[dt] = [aslant(folder, law, dt, z) for z in touches]
+            for b in rows[dt]:
+                at_most(f"{law}, {dt}: no row exceeds the energy", max(abs(b[n]) for n in ("slider", "stiffness", "damping")), 1)
+                fact(f"{law}, {dt}: the slider gains nothing", b["slider"] > 0, b)
+        for name in ("slider", "stiffness"):
+            means = [sum(b[name] for b in of) / len(of) for of in rows.values()]
+            spread = max(b[name] for b in rows[2.5e-5]) - min(b[name] for b in rows[2.5e-5])
+            print(law, name, means, spread)
+            # Where a contact begins to slide or to stick, a step's part of its work is in the one row or in the other: a contact has 300 steps of 5e-5.
+            at_most(f"{law}: {name} at the two smallest timesteps", abs(means[-1] - means[-2]), 1 / 300)
+
+
+@lmp.of_host
+def test_heat_of_a_slider(folder):
+    """What friction heats is never below 0, though a ball that touches by 1e-17 has a spring of no stiffness."""
+    text = SPHERE.replace("create_atoms", "fix heats all property/atom temperature heatflow ghost yes\ncreate_atoms").replace("mass 1\n", "mass 1 temperature 1\n")
+    text = text.replace("floor.stl energy", "floor.stl temperature 1 energy friction_heat 1\nfix flow all heat/flow constant 1\n"
+                        "compute T all property/atom temperature\ncompute hot all reduce max c_T")
+    text = text.replace("custom step", "custom step c_hot")
+    for dt in (5e-5, 2.5e-5, 1.25e-5):
+        hot = [row[1] for row in lmp.read_thermo(lmp.run_well(text.format(
+            x="0.3 0.2 0.501", v="1 0 -1", move="fix move all nve/sphere", dt=repr(dt), columns=" ".join(COLUMNS), run=f"run {round(0.08 / dt)} every 10 NULL",
+            law="granular hertz 1e5 5 damping velocity tangential mindlin 1e5 1 0.2 heat area 0"), folder))]
+        fact(f"{dt}: it has become warmer", 1.01 < hot[-1] < 2, hot[-1])
+        fact(f"{dt}: and never colder", all(a <= b for a, b in zip(hot, hot[1:])), hot)
+
+
 # ---- bodies, servos, several meshes ------------------------------------------------------
 
 BODY = "body mass {mass} com 0 0 0 inertia 1 1 1 0 0 0 joint slider {axis} {more}"

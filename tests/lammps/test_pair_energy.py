@@ -125,6 +125,22 @@ def test_rolling_and_twisting(folder):
         nothing_but(b, lost, row, "inserted")
 
 
+def test_springs_that_only_make_up_for_a_dashpot(folder):
+    """Two grains that meet aslant, with an overlap of 1e-17 in the first step: rows do not exceed their energy, and slider and stiffness converge, as
+    those of a wall do (test_energy.py)."""
+    move = "fix move all nve/sphere\nvelocity one set 0.5 0.5 0\nvelocity two set -0.5 -0.5 0"
+    for law in ("hertz 1e5 5 damping velocity tangential mindlin 1e5 1 0.2", "law hertz/history 1e5 1e5 20 40 0.2 0"):
+        rows = [[two(folder, law, dt, f"run {round(0.08 / dt)}", f"{1 + n * dt - less!r} 0 0", move) for n, less in ((3.3, 0), (3.7, 0), (4, 2e-16))]
+                for dt in (1e-4, 5e-5, 2.5e-5)]
+        for b in (b for of in rows for b in of):
+            at_most(f"{law}: no row exceeds the energy", max(abs(b[n]) for n in ("slider", "stiffness", "damping")), 0.5)
+            fact(f"{law}: the slider gains nothing", b["slider"] > 0, b)
+        for name in ("slider", "stiffness"):
+            means = [sum(b[name] for b in of) / len(of) for of in rows]
+            # A contact has 300 steps of 5e-5, and a step's part of its work may be in the one row or in the other.
+            at_most(f"{law}: {name} at the two smallest timesteps", abs(means[-1] - means[-2]), 1 / 300)
+
+
 def test_loop_of_jkr(folder):
     """Grains that are pressed together and pulled apart: both steps of the adhesion sum to the integral of the force from the pull-off
     to the touch. The force jumps there, where a step counts by dt/2."""

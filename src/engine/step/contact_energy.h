@@ -92,10 +92,44 @@ LSDCD_FN SpringLoss spring_loss_at_end(const Vec3 &path, const Vec3 &old, const 
   return spring_loss(spring, true, path, {0, 0, 0}, old, old_spring, old_k);
 }
 
-// Returns what a contact keeps whose force `f` has these parts, without `held`. `weight`: that of the contact.
+// Returns what friction loses in a step between the forces `old` and `now`. `spring`, `limit`: of friction, times the weight of the
+// contact; `path`: how far it has slipped.
+LSDCD_FN SpringLoss sliding_loss(SpringPart spring, bool slides, Real limit, const Vec3 &path,
+                                 const KeptForces &now, const KeptForces &old)
+{
+  if (now.is_slaved()) {    // all of the work is the slider's, and what the spring held when it was last a store
+    SpringLoss loss = spring_loss({}, true, path, now.friction, old.friction, old.friction_spring,
+                                  old.k_friction);
+    return {loss.slider + loss.stiffness, loss.dashpot, 0};
+  }
+  if (!old.is_slaved())
+    return spring_loss(spring, slides, path, now.friction, old.friction, old.friction_spring,
+                       old.k_friction);
+  // The spring is a store again. It begins with what the limit allows, which it gets by its stiffness.
+  const Real pull = spring.k * norm(spring.begins);
+  if (pull > limit) spring.begins = (limit / pull) * spring.begins;
+  const Vec3 begins = -spring.k * spring.begins;
+  SpringLoss loss = spring_loss(spring, slides, path, now.friction, begins, begins, spring.k);
+  loss.slider -= 0.5 * dot(old.friction - begins, path);
+  loss.stiffness -= spring_energy(norm_sq(begins), spring.k);
+  return loss;
+}
+
+// Returns whether the spring of friction only makes up for a dashpot that is beyond the limit (KeptForces::kSlaved): from a step in which
+// the limit cuts it, for as long as the dashpot is beyond. `old`: what the contact has taken over. In a setup nothing changes.
+template <class C>
+LSDCD_FN bool slaves_spring(const C &c, const ForceParts &parts, const KeptForces &old)
+{
+  if (!c.update) return old.is_slaved();
+  if (!parts.dashpot_slides) return false;
+  const Vec3 path = c.dt * c.v_tangent;
+  return old.is_slaved() || parts.friction.is_cut(parts.friction.cut_off(path), path);
+}
+
+// Returns what a contact keeps whose force `f` has these parts, without `held`. `weight`: that of the contact; `slaved`: slaves_spring().
 template <class Law>
 LSDCD_FN KeptForces kept_of(const Law &, const Vec3 &n, const FullForce &f, const ForceParts &parts,
-                            Real weight, Real distance, Real arm)
+                            bool slaved, Real weight, Real distance, Real arm)
 {
   KeptForces now = {};
   now.weight = weight;
@@ -104,8 +138,8 @@ LSDCD_FN KeptForces kept_of(const Law &, const Vec3 &n, const FullForce &f, cons
   now.distance = distance;
   now.arm = arm;
   now.friction = weight * f.tangential;
-  now.friction_spring = weight * parts.friction.force();
-  now.k_friction = weight * parts.friction.k;
+  now.friction_spring = slaved ? Vec3{0, 0, 0} : weight * parts.friction.force();
+  now.k_friction = slaved ? KeptForces::kSlaved : weight * parts.friction.k;
   if constexpr (Law::kContactTorque) {
     const Real twisting = dot(f.contact_torque, n);
     now.rolling = weight * (f.contact_torque - twisting * n);
@@ -118,13 +152,15 @@ LSDCD_FN KeptForces kept_of(const Law &, const Vec3 &n, const FullForce &f, cons
   return now;
 }
 
-// Returns the elastic energy that a contact holds. In a setup the limits of friction cut forces, but springs stay as they are.
+// Returns the elastic energy that a contact holds. In a setup the limits of friction cut forces, but springs stay as they are. A spring
+// that is no store holds none.
 template <class Law, class C>
 LSDCD_FN Real held_of(const Law &law, const C &c, const FullForce &f, Real weight,
                       const KeptForces &now)
 {
-  return c.update ? weight * f.energy
-                  : weight * law.normal_energy(c, c.overlap) + springs_energy<Law>(now);
+  return c.update && !now.is_slaved()
+             ? weight * f.energy
+             : weight * law.normal_energy(c, c.overlap) + springs_energy<Law>(now);
 }
 
 // Add what sliding loses; the second function also adds what rolling and twisting lose.
@@ -164,9 +200,8 @@ LSDCD_FN void book_springs(const Law &law, const C &c, const ForceParts &parts, 
     spring.k *= weight;
     return spring;
   };
-  const SpringLoss sliding =
-      spring_loss(weighted(parts.friction), parts.slides, c.dt * c.v_tangent, now.friction,
-                  old.friction, old.friction_spring, old.k_friction);
+  const SpringLoss sliding = sliding_loss(weighted(parts.friction), parts.slides,
+                                          weight * parts.limit, c.dt * c.v_tangent, now, old);
   if constexpr (Law::kContactTorque) {
     const Vec3 &n = c.normal, rolling = rolling_part(c.omega, n);
     const Real twisting = dot(c.omega, n);
@@ -217,7 +252,10 @@ struct EnergyBook {
   {
     const Contact &c = b.c;
     const Vec3 &n = c.normal;
-    KeptForces now = kept_of(law, n, b.f, b.parts, b.weight, b.distance, b.arm);
+    KeptForces old = {};
+    if (in.from >= 0) old = handed_on(law, settings, s, in, n);
+    KeptForces now =
+        kept_of(law, n, b.f, b.parts, slaves_spring(c, b.parts, old), b.weight, b.distance, b.arm);
     now.held = held_of(law, c, b.f, b.weight, now);
     memcpy(to + n_extra(law), &now, sizeof now);
     if constexpr (Law::kNodes) {
@@ -237,8 +275,6 @@ struct EnergyBook {
       if (settings.nodes.velocity) add_nodes(settings.nodes, b.nodes, n, now, c.dt, m);
     add_half(m, n, now, c.dt);
     if (settings.receded) recede(wall, b.feature, s.x - b.distance * n, settings.receded, n, now);
-    KeptForces old = {};
-    if (in.from >= 0) old = handed_on(law, settings, s, in, n);
     book_springs(law, c, b.parts, b.weight, now, old, rows);
   }
 

@@ -94,7 +94,8 @@ struct BookingSink : SphereSink {
   EnergyBook<Law> *book;
   EnergyMarks *marks;
   EnergyRecordList records;
-  bool *begins;    // set if a contact may begin by an impact, of a sphere that may have several
+  bool *
+      may_have_impacts;    // set if a contact may begin by an impact and the sphere may have other contacts
   Real friction_heat;
 };
 template <class Law>
@@ -107,7 +108,8 @@ struct BookedContact {
   FullForce f;
   ForceParts parts;
   Real weight;
-  Real distance, arm;    // distance of the centre from the wall, and arm of friction
+  Real distance,
+      arm;    // of the centre from the wall, and of friction; of a grain the radius that the law reads, and the overlap
   FeatureCode feature;
   const NodeShares &nodes;    // in the closest point; read only if its nodes move
 };
@@ -116,12 +118,13 @@ struct ForceSettings {
   SearchSettings search;
   std::uint32_t mesh;    // number in the wall
   Real dt;
-  bool update;
-  bool stores;        // what contacts keep: `update`, or also in a setup if energy is recorded
-  bool with_point;    // fill weighted_point and weight
+  bool update;    // springs go on by dt; not in a setup or a snapshot
+  bool
+      stores;    // the step keeps what contacts have written: if it is an `update`, or a setup whose energy is recorded
+  bool with_point;          // fill weighted_point and weight
   Real wall_temperature;    // read only if the law has heat
-  SurfaceMotion surface;    // read only if the surface moves
-  bool surface_moves;       // by itself; else `surface` is not read, which changes no bit
+  SurfaceMotion surface;    // 0 if the surface does not move by itself
+  bool surface_moves;       // by itself; else nothing is computed with its 0, which changes no bit
   Pose pose;                // read only by laws for walls that move
   // Velocities of spheres are those of half a step ago: `back` is dt / 2, and 0 in a setup (time). The velocity of a wall that turns is
   // taken at the same time; otherwise a sphere at rest on a turntable would seem to slip outward, and friction would pull it in.
@@ -196,6 +199,7 @@ LSDCD_FN auto memory_from_last_step(const Law &law, const ForceSettings &setting
           now = turn_about(n, settings.dt * dot(settings.surface.angular, n), now);
       return now;
     };
+    // springs[] turns a spring of another mesh into the frame of this one; `extra` is as it was kept.
     memory.shear = turned(s.springs[in.from].shear);
     if constexpr (Law::kExtra > 0 && !Set::kHasArms) {
       const Real *old = s.extra + in.from * n_stored(law);
@@ -408,7 +412,7 @@ struct EvaluatedContact {
   std::uint32_t mesh;    // number in the wall
   Real weight;
   ContactMotion<typename Set::Arm> motion;
-  Transfer in;              // which contact of the last step it continues
+  Transfer in;    // the contact of the last step that it takes over, and the part of its spring
   Memory before, memory;    // at the start and at the end of the step
   Force f;
 };
@@ -421,20 +425,29 @@ LSDCD_FN void evaluate(const GridView &grid, const Law &law, const ForceSettings
 {
   at.i = i;
   at.feature = set.feature[i];
-  at.mesh = Law::kPosed ? settings.mesh : 0;
+  at.mesh = Law::kPosed ? settings.mesh : 0;    // other laws are for a wall of one mesh
   at.weight = weight;
   set_motion(grid, law, settings, s, set, i, overlap, at.motion);
   at.in = {-1, 0};
   if constexpr (Law::kHistory) at.in = set.transfer(grid, law, i, s);
   at.memory = memory_from_last_step(law, settings, set, i, s, at.in);
+  // The first vector that a grain keeps is its arm (ShapeLaw).
   if constexpr (Set::kHasArms && Law::kHistory) at.memory.put(0, at.motion.arm->arm);
   at.before = at.memory;
   at.f = law.evaluate(at.motion.c, at.memory);
+  // Without `update` springs stay as they were. Laws without energy and records store nothing then.
   if constexpr (Law::kSetsUp)
     if (!settings.update) at.memory = at.before;
 }
 
-// Adds a contact to the energy balance of its mesh, and what its friction heats. `place`: where it is among the contacts that are stored.
+// Returns the heat flow (power) by a loss of the slider. It is never below 0, though the spring of a law may give back some of a loss.
+LSDCD_FN Real heat_of_friction(Real share, Real lost, Real dt)
+{
+  return lost > 0 ? share * lost / dt : 0;
+}
+
+// Adds a contact to the energy balance of its mesh, and what its friction heats. `place`: its number among the contacts with this mesh
+// that are stored, from 0; the arrays of the sink begin with these.
 template <class Law, class Springs, class Set, class Sink>
 LSDCD_FN void book_contact(const GridView &grid, const Law &law, const ForceSettings &settings,
                            const SphereStateWith<Springs> &s, const Set &set,
@@ -454,7 +467,8 @@ LSDCD_FN void book_contact(const GridView &grid, const Law &law, const ForceSett
            sink.extra + place * n_stored(law));
   if constexpr (Law::kHeat)
     if (law.has_heat() && settings.update && sink.friction_heat > 0)
-      *sink.heat += sink.friction_heat * (sink.book->rows[EnergyRow::slider] - slid_before) / c.dt;
+      *sink.heat += heat_of_friction(sink.friction_heat,
+                                     sink.book->rows[EnergyRow::slider] - slid_before, c.dt);
 }
 
 // Rows of the energy balance before a contact was booked, in laws that write what each contact loses.
@@ -462,12 +476,12 @@ template <class Law>
 using RowsBefore = std::conditional_t<Law::kLosses, EnergyRows, Real>;
 
 // Writes the record of a contact: what it has lost since the rows of its mesh were `before`, and its impact if it begins in this step.
-// `is_alone`: the sphere has no other contact. `place`: as in book_contact().
+// `is_only`: it is known that the sphere has no other contact. `place`: as in book_contact().
 template <class Law, class Springs, class Set, class Sink>
 LSDCD_FN void record_contact([[maybe_unused]] const Law &law, const ForceSettings &settings,
                              const SphereStateWith<Springs> &s,
                              const EvaluatedContact<Law, Set> &at,
-                             [[maybe_unused]] const RowsBefore<Law> &before, bool is_alone,
+                             [[maybe_unused]] const RowsBefore<Law> &before, bool is_only,
                              const Sink &sink, [[maybe_unused]] int place)
 {
   EnergyRecord record = {at.feature, at.mesh, 0, 0, 0};
@@ -476,22 +490,22 @@ LSDCD_FN void record_contact([[maybe_unused]] const Law &law, const ForceSetting
     if (law.keeps_losses)
       sink.book->keep_losses(law, settings, s, at.in, before, sink.extra, place);
   }
-  // Grains that are no spheres are left out, because walls have no impacts with them.
+  // Impacts are of spheres alone: an error refuses them with other grains.
   if constexpr (!Set::kHasArms)
     if (settings.update && sink.records.impact_speed > 0 &&
         !stays(s.springs, at.in, at.feature, at.mesh)) {
       const Contact &c = at.motion.c;
-      // If there are several contacts, impacts follow when all contacts are known (impacts.h).
-      if (is_alone)
+      // If there may be others, impacts follow when all contacts are known (impacts.h).
+      if (is_only)
         add_impact(taken_by_last_contact(at.in, s.springs, at.motion.v, c.overlap),
                    {c.normal, -at.motion.away, c.overlap}, c.mass, c.dt, sink.records, record);
       else
-        *sink.begins = true;
+        *sink.may_have_impacts = true;
     }
   sink.records.put(record);
 }
 
-// Stores a contact at a place among those of its sphere: its springs for the next step, and its force and wear for whoever reads them.
+// Stores a contact: its springs for the next step, and its force and wear for whoever reads them. `place`: as in book_contact().
 template <class Law, class Springs, class Set, class Sink>
 LSDCD_FN void store_contact(const Law &law, const ForceSettings &settings,
                             const SphereStateWith<Springs> &s, const EvaluatedContact<Law, Set> &at,
@@ -536,8 +550,8 @@ LSDCD_FN void add_to_result(const Law &law, const ForceSettings &settings,
   }
 }
 
-// Evaluates the law for each contact of a sphere with one mesh and adds its force, torque and energy to `out`. `weights` null: the sphere
-// has one contact.
+// Evaluates the law for each contact of a sphere with one mesh and adds its force, torque and energy to `out`. `weights` null: it is known
+// that the sphere has one contact, which bears all (the fast path). With weights there may be one, too.
 template <class Law, class Springs, class Set, class Sink>
 LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
                            const SphereStateWith<Springs> &s, const Set &set, const Real *weights,
@@ -547,18 +561,19 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     const Real weight = weights ? weights[i] : 1;
     const Real overlap = set.overlap_of(i, s.radius), ratio = overlap / set.reported_radius(s);
     if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
-    // A contact that bears nothing, such as one on the far face of a thin plate, is not counted. It has no spring yet, either: a spring
-    // cut to the friction limit of its own slight overlap would be lost when the contact takes over the force.
+    // A contact that bears nothing, such as one on the far face of a thin plate, is not stored, though its overlap is told. It gets no
+    // spring of its own: it takes over that of the contact that hides it when that one ends, and a spring of its own, cut to the friction
+    // limit of its slight overlap, would be in the way.
     if (!(weight > 0)) continue;
 
     EvaluatedContact<Law, Set> at;
     evaluate(grid, law, settings, s, set, i, overlap, weight, at);
     const int place = out.n_contacts;
-    [[maybe_unused]] RowsBefore<Law> before = {};
-    if constexpr (Law::kLosses) before = sink.book->rows;
+    [[maybe_unused]] RowsBefore<Law> rows_before = {};
+    if constexpr (Law::kLosses) rows_before = sink.book->rows;
     if constexpr (Law::kEnergy) book_contact(grid, law, settings, s, set, at, sink, place);
     if constexpr (Law::kRecords)
-      record_contact(law, settings, s, at, before, !weights, sink, place);
+      record_contact(law, settings, s, at, rows_before, !weights, sink, place);
     const Vec3 tangential = weight * at.f.tangential;
     store_contact(law, settings, s, at, tangential, sink, place);
     out.n_contacts++;

@@ -80,7 +80,10 @@ void add_grain(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wa
 {
   const Contact &c = b.c;
   const Vec3 &n = c.normal;
-  KeptForces now = kept_of(law, n, b.f, b.parts, b.weight, b.distance, b.arm);
+  KeptForces old = {};
+  if (in.from >= 0) old = EnergyBook<Law>::handed_on(law, settings, s, in, n);
+  KeptForces now =
+      kept_of(law, n, b.f, b.parts, slaves_spring(c, b.parts, old), b.weight, b.distance, b.arm);
   now.held = held_of(law, c, b.f, b.weight, now);
   now.rolling = cross(at.arm, (now.elastic + now.damping) * n + now.friction) + at.couple;
   memcpy(to + n_extra(law), &now, sizeof now);
@@ -95,8 +98,6 @@ void add_grain(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wa
   const RelativeMotion m = relative_motion(settings, s, n, from_foot, false);
   add_half_of_grain(m, slip_at(m, at.arm, from_foot), n, now, c.dt, book.rows);
   if (settings.receded) book.recede(wall, b.feature, at.foot, settings.receded, n, now);
-  KeptForces old = {};
-  if (in.from >= 0) old = EnergyBook<Law>::handed_on(law, settings, s, in, n);
   if (goes_on && law.reads_radius)
     book.rows[EnergyRow::stiffness] += loss_by_radius(law, c, b.weight, old);
   book_springs(law, c, b.parts, b.weight, now, old, book.rows);

@@ -72,8 +72,6 @@ LSDCD_FN bool reserve_places(const Law &law, const StepJob &job, std::size_t k, 
   const ContactPool &pool = job.pool;
   first = static_cast<int>(k);
   if constexpr (Law::kPosed) first += job.first_slot;
-  if constexpr (Law::kHeat)
-    if (law.has_heat()) sink.heat = job.heat + k;
   if constexpr (Law::kHistory || Law::kKeepsContacts) {
     if (n > 1) {
       first = pool.shared + fetch_add(&job.counts->shared_used[pool.which], n);
@@ -162,10 +160,14 @@ LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const MarksO
     else
       book.close(mesh.law, mesh.grid.wall, mesh.settings, state, marks, job.records);
     if constexpr (Law::kHeat)
-      if (mesh.law.has_heat() && mesh.settings.update && job.friction_heat > 0)
-        job.heat_flow[sphere.i] +=
-            job.friction_heat * (book.rows[EnergyRow::slider] - job.energy[k][EnergyRow::slider]) /
-            mesh.settings.dt;
+      if (mesh.law.has_heat() && mesh.settings.update && job.friction_heat > 0) {
+        const Real heat = heat_of_friction(
+            job.friction_heat, book.rows[EnergyRow::slider] - job.energy[k][EnergyRow::slider],
+            mesh.settings.dt);
+        job.heat_flow[sphere.i] += heat;
+        if (job.result.n_contacts[k] > 0)
+          job.heat[k] += heat;    // else nothing is told of the slot
+      }
     job.energy[k] = book.rows;
     job.is_booked[k] = 1;
   }
@@ -204,8 +206,8 @@ LSDCD_FN SinkOf<Law> sink_behind([[maybe_unused]] const Law &law, const SinkOf<L
 
 // Applies the law to the contacts of a sphere with one mesh or several, mesh after mesh, each in the frame of its mesh: computes force,
 // torque, springs and contacts. The moment about the origin is stored, too, so that totals can be made after spheres have moved on. The
-// sphere is a OneMeshSphere, or a MultiMeshSphere with its contacts (AtMeshes), which is a candidate of each of its meshes. `weight` null:
-// there is at most one contact, with one mesh.
+// sphere is a OneMeshSphere, or a MultiMeshSphere with its contacts (AtMeshes), which is a candidate of each of its meshes: results are by
+// slot, one for each mesh, of which callers have set n_contacts to 0. `weight` null: there is at most one contact, with one mesh.
 template <class Law, class Sphere, class Contacts>
 LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts &set,
                         const Real *weight)
@@ -217,26 +219,26 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
   if constexpr (Law::kEnergy)
     for (int m = 0; m < sphere.n_meshes(); m++) job.is_booked[begin + m] = 0;
   if (set.n == 0) {
-    if constexpr (Law::kEnergy) close_books<Law>(job, sphere, marks);
     put_no_contact(job, begin, i);
+    if constexpr (Law::kEnergy) close_books<Law>(job, sphere, marks);
     return;
   }
-  int first = 0;    // place in the pool of contacts
+  int first = 0;    // place in the pool of contacts; reserve_places() sets it and the sink
   SinkOf<Law> sink = {};
   // All laws of a wall store the same numbers of a contact.
   if (!reserve_places(sphere.mesh(begin).law, job, begin,
                       weight ? count_acting(set, weight) : set.n, first, sink)) {
-    does_not_fit(job, begin, i, job.counts->no_places);
+    does_not_fit(job, begin, i, job.counts->no_places);    // an error of the step
     return;
   }
-  [[maybe_unused]] bool begins = false;
+  [[maybe_unused]] bool may_have_impacts = false;
   if constexpr (Law::kEnergy) {
     sink.marks = &marks;
     sink.friction_heat = job.friction_heat;
   }
   if constexpr (Law::kRecords) {
     sink.records = job.records;
-    sink.begins = &begins;
+    sink.may_have_impacts = &may_have_impacts;
   }
   int n_done = 0;    // contacts that are stored
   [[maybe_unused]] DeepestAtMeshes deepest;
@@ -247,17 +249,17 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     auto state = sphere.state(law, slot);
     add_motion(law, job, settings.pose, i, state);
 
-    SinkOf<Law> to_mesh = sink_behind<Law>(law, sink, n_done);
+    SinkOf<Law> mesh_sink = sink_behind<Law>(law, sink, n_done);
     [[maybe_unused]] EnergyBook<Law> book = {};
-    if constexpr (Law::kEnergy) to_mesh.book = &book;
+    if constexpr (Law::kEnergy) mesh_sink.book = &book;
     if constexpr (Law::kHeat)
       if (law.has_heat()) {
-        to_mesh.heat = job.heat + slot;
-        *to_mesh.heat = 0;
+        mesh_sink.heat = job.heat + slot;
+        *mesh_sink.heat = 0;
       }
     SphereResult out = {};
-    add_contacts(mesh.grid, law, settings, state, contacts_in_step(of_mesh), weight + from, to_mesh,
-                 out);
+    add_contacts(mesh.grid, law, settings, state, contacts_in_step(of_mesh),
+                 weight ? weight + from : nullptr, mesh_sink, out);
     if constexpr (Law::kEnergy) {
       job.energy[slot] = book.rows;
       job.is_booked[slot] = 1;
@@ -267,26 +269,26 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     else
       record_overlap(job, i, settings.mesh, out.overlap_ratio);
     job.result.n_contacts[slot] = out.n_contacts;
-    if (out.n_contacts == 0) return;
+    if (out.n_contacts == 0) return;    // none of this mesh bears; on to the next mesh
     if constexpr (Law::kKeepsContacts) job.pool.first_contact[slot] = first + n_done;
     if constexpr (Law::kHeat)
-      if (law.has_heat()) job.heat_flow[i] += *to_mesh.heat;
+      if (law.has_heat()) job.heat_flow[i] += *mesh_sink.heat;
     n_done += out.n_contacts;
     if constexpr (Law::kPosed)
       if (settings.pose.placed) to_box(settings.pose, out);
     add_force(job, slot, i, sphere.in_box(), out);
   });
-  if constexpr (Law::kLosses) {
+  if constexpr (Law::kLosses) {    // where close_books() finds the contacts of this step that go on
     marks.springs = sink.springs;
     marks.extra = sink.extra;
     marks.n = n_done;
   }
   if constexpr (Law::kEnergy) close_books<Law>(job, sphere, marks);
   if constexpr (Law::kRecords && !Contacts::kHasArms)
-    if (begins) record_impacts<Law>(job, sphere, set, weight);
+    if (may_have_impacts) record_impacts<Law>(job, sphere, set, weight);
   if constexpr (Sphere::kSeveral) deepest.record(job, i);
   if constexpr (Law::kHistory)
-    if (job.settings.stores) {
+    if (job.settings.stores) {    // the same for all meshes
       if (n_done > 0) job.pool.first[i] = first;
       job.pool.count[i] = n_done;
     }

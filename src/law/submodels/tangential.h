@@ -152,6 +152,8 @@ struct GranularFriction {
     const Vec3 f = -stiff * m.shear;
     return is_cut(pull, limit, c) ? f : f - (xgammat * damping) * c.v_tangent;
   }
+  // Returns whether the limit leaves a spring that pulls along the slip where the dashpot alone is beyond it, while the stiffness varies.
+  LSDCD_FN bool may_slave_spring() const { return spring && by_radius && !slip && !at_midpoint; }
   // Returns the spring of a step with the memory before and after it. `at`, `limit`: of rescale_spring() and spring_force().
   template <class C, class Memory>
   LSDCD_FN SpringPart part(const C &c, Real a, const Memory &begun, const Memory &now,
