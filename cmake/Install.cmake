@@ -83,11 +83,11 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DATA_PACKAGE_ARCHITECTURE all)
 if(TARGET lsdcd_tool)
   list(APPEND CPACK_COMPONENTS_ALL tool)
-  # Python runs the plot's script.
+  # Python runs the plot's script, and the module that makes reports.
   lsdcd_package(tool lsdcd science "lsdcd-data (= ${PROJECT_VERSION}), python3:any"
     "Looks at meshes, grids and materials of DEM walls"
-    "Inspects, repairs, converts and generates triangle meshes, finds\ndistances and collisions, and measures what settings of a DEM wall cost.")
-  set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "python3-matplotlib")
+    "Inspects, repairs, converts and generates triangle meshes, finds\ndistances and collisions, measures what settings of a DEM wall cost,\nand makes reports of runs.")
+  set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "python3-matplotlib, python3-lsdcd")
 endif()
 if(TARGET lsdcdplugin)
   list(APPEND CPACK_COMPONENTS_ALL lammps)

@@ -83,7 +83,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     tag, info = f"py3-none-{platform}", f"lsdcd-{version}.dist-info"
     package = ROOT / "src" / "api" / "lsdcd"
     files = {f"lsdcd/{path.name}": path.read_bytes() for path in sorted(package.iterdir())
-             if path.suffix == ".py" or path.name == "py.typed"}
+             if path.suffix in (".py", ".html", ".js") or path.name == "py.typed"}
     files["lsdcd/lsdcd.h"] = (package.parent / "lsdcd.h").read_bytes()    # whose structs the module reads
     with tempfile.TemporaryDirectory() as folder:
         files["lsdcd/liblsdcd.so.0"] = library(folder).read_bytes()

@@ -174,8 +174,20 @@ Program::Program(std::unique_ptr<CLI::App> app) : Command(app.get()), app_(std::
 
 Program::~Program() = default;
 
+void Program::passes_on(const std::string &name, const std::string &help,
+                        const std::function<void(const std::vector<std::string> &)> &run)
+{
+  command(name, help);
+  passed_on_[name] = run;
+}
+
 bool Program::run(int argc, char **argv)
 {
+  const auto other = argc > 1 ? passed_on_.find(argv[1]) : passed_on_.end();
+  if (other != passed_on_.end()) {
+    other->second({argv + 2, argv + argc});
+    return true;
+  }
   try {
     if (argc > 1 && !are_commands(*app_, argv + 1)) return false;
     app_->parse(argc, argv);

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -72,6 +73,9 @@ class Program : public Command {
   Program(const std::string &help, const std::string &version);
   ~Program();
 
+  // Adds a command that is another program: it gets all words behind its name, `--help` included.
+  void passes_on(const std::string &name, const std::string &help,
+                 const std::function<void(const std::vector<std::string> &)> &run);
   // Runs the command that the words name, or prints the help or the version. Returns whether the words are
   // right; if not, it has printed what is wrong. Throws what a command throws, and InputError where the
   // standard output has not accepted all that was printed.
@@ -81,6 +85,7 @@ class Program : public Command {
   explicit Program(std::unique_ptr<CLI::App> app);
 
   std::unique_ptr<CLI::App> app_;
+  std::map<std::string, std::function<void(const std::vector<std::string> &)>> passed_on_;
 };
 
 }    // namespace lsdcd

@@ -21,5 +21,7 @@ void add_timestep_command(Command &program);
 void add_tradeoff_command(Command &program);
 void add_accuracy_command(Command &program);
 void add_effects_command(Command &program);
+// Those of the Python package.
+void add_report_command(Program &program);
 
 }    // namespace lsdcd

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// lsdcd: what can be done with a mesh without a simulation.
+// lsdcd: what can be done with a mesh without a simulation, and with the files of one.
 #include "base/version.h"
 #include "tool/commands.h"
 
@@ -19,9 +19,9 @@ constexpr int kDone = 0, kUnusable = 1, kUsage = 2;
 
 int run(int argc, char **argv)
 {
-  Program program(
-      "lsdcd: meshes of DEM walls, their grids, distances to them, bodies in them, and materials",
-      std::string("lsdcd ") + version() + (*LSDCD_COMMIT ? " (" LSDCD_COMMIT ")" : ""));
+  Program program("lsdcd: meshes of DEM walls, their grids, distances to them, bodies in them, "
+                  "materials, and reports of runs",
+                  std::string("lsdcd ") + version() + (*LSDCD_COMMIT ? " (" LSDCD_COMMIT ")" : ""));
   program.footer("lsdcd COMMAND --help shows its options and an example.\n"
                  "Exit codes: 0: done; 1: a file or mesh cannot be used; 2: wrong arguments;\n"
                  "3: repair has written what it cannot mend in full.");
@@ -38,6 +38,7 @@ int run(int argc, char **argv)
   add_tradeoff_command(program);
   add_accuracy_command(program);
   add_effects_command(program);
+  add_report_command(program);
   return program.run(argc, argv) ? exit_code : kUsage;
 }
 

@@ -6,12 +6,12 @@
 #include "base/atomic_file.h"
 #include "base/input_error.h"
 #include "base/number_words.h"
-#include "base/shared_files.h"
 #include "study/tradeoff.h"
 #include "tool/csv_file.h"
 #include "tool/load_mesh.h"
 #include "tool/number_options.h"
 #include "tool/output_file.h"
+#include "tool/python_script.h"
 #include "wall/spec/spec_words.h"
 
 #include <cmath>
@@ -20,8 +20,6 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace lsdcd {
 
@@ -144,25 +142,14 @@ std::string csv_of(const Tradeoff &tradeoff, const WeldedMesh &mesh,
   return out;
 }
 
-// Debian's interpreter is asked first: another one
-// in PATH would not see Debian's matplotlib.
 void draw(const std::string &csv, const std::string &plot)
 {
-  const std::string script = shared_folder() / "plot_tradeoff.py";
-  const char *const python =
-      std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
-  const pid_t child = fork();
-  if (child == 0) {
-    execlp(python, python, script.c_str(), csv.c_str(), plot.c_str(), static_cast<char *>(nullptr));
-    _exit(127);
-  }
-  int status = -1;
-  if (child > 0) waitpid(child, &status, 0);
-  if (status != 0)
-    throw InputError("the rows are in '" + csv +
-                     "', but no plot was drawn: it needs python3 and "
-                     "matplotlib (Debian: python3-matplotlib); then run " +
-                     std::string(python) + " " + script + " " + csv + " " + plot);
+  const char *const name = "plot_tradeoff.py";
+  if (run_script(name, {csv, plot})) return;
+  throw InputError("the rows are in '" + csv +
+                   "', but no plot was drawn: it needs python3 and "
+                   "matplotlib (Debian: python3-matplotlib); then run " +
+                   python_program() + " " + python_script(name) + " " + csv + " " + plot);
 }
 
 // Prints the words for an input script. Returns what is wrong; empty: nothing.

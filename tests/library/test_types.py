@@ -103,6 +103,7 @@ def test_names_are_those_of_the_tables(monkeypatch):
     import make_names
     fact("src/api/lsdcd/_names.py is that of the tables; cmake --build build --target python_names makes it anew",
          make_names.FILE.read_text(encoding="utf-8") == make_names.text())
+    fact("src/api/lsdcd/_style_outputs.py is that of the pages", make_names.STYLES_FILE.read_text(encoding="utf-8") == make_names.styles_text())
     named = {name.split(" ")[0] for name in lsdcd.KEYWORDS}
     fact("keywords are those that a refusal lists", set(refusal("no_such_keyword").split("; those are ")[1].split(", ")) == named)
     fact("types of names have them", set(typing.get_args(lsdcd.KeywordName)) == named and

@@ -18,7 +18,8 @@ from triangles import cube
 # What is missing where a command stands alone.
 NEEDS = {"inspect": "file is required", "repair": "file is required", "convert": "file is required",
          "generate": "subcommand is required", "grid": "file is required", "distance": "mesh is required", "collide": "wall is required",
-         "material": "file is required", "timestep": "--radius is required", "tradeoff": "file is required", "accuracy": None, "effects": None}
+         "material": "file is required", "timestep": "--radius is required", "tradeoff": "file is required", "accuracy": None, "effects": None,
+         "report": "required: folder"}
 # Words that make an example quick.
 QUICK = {"tradeoff": "--spheres 100 --moving 2 --repeats 1 --seconds 0.2 --device cpu --plot none"}
 
@@ -76,6 +77,7 @@ GOOD = [
      {"smallest_radius": 0.002, "set_by": "the impact of grain on grain", "too_soft": True}),
     ("material glass.lsdcd glass --on aluminium --json", {}),
     ("effects --json", {}),
+    ("report . -o page.html", ["page.html: 0.0"]),
 ]
 
 NO_FILE = "No such file or directory"
@@ -165,6 +167,7 @@ def scene(folder):
     stl.write(folder / "line.stl", [[(0, 0, 0), (1, 0, 0), (2, 0, 0)]])
     (folder / "points.csv").write_text("0.5,0.5,1.25\n9,9,9\n")
     (folder / "text.stl").write_text("no mesh at all\n")
+    (folder / "log.lammps").write_text("units si\ntimestep 1e-5\nStep KinEng\n0 1\n100 2\nLoop time of 1\nTotal wall time: 0:00:01\n")
     run(folder, "convert", "wall.stl", "-o", "wall.obj")
 
 
@@ -180,8 +183,8 @@ def check_full_output(folder, commands):
 
 
 def check_json(folder, commands):
-    """Every command has --json, as doc/tool.md says, but those that write CSV."""
-    for command in sorted(set(commands) - {"tradeoff", "accuracy"}):
+    """Every command has --json, as doc/tool.md says, but those that write CSV and HTML."""
+    for command in sorted(set(commands) - {"tradeoff", "accuracy", "report"}):
         words = [command, "box"] if command == "generate" else [command]
         fact(f"{command} has --json", "--json" in run(folder, *words, "--help").stdout)
     materials = json.loads(run(folder, "material", "glass.lsdcd", "--json").stdout)["materials"]
