@@ -83,11 +83,11 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DATA_PACKAGE_ARCHITECTURE all)
 if(TARGET lsdcd_tool)
   list(APPEND CPACK_COMPONENTS_ALL tool)
-  # Python runs the plot's script, and the module that makes reports.
+  # Python runs the plot's script, and the modules that make reports and films.
   lsdcd_package(tool lsdcd science "lsdcd-data (= ${PROJECT_VERSION}), python3:any"
     "Looks at meshes, grids and materials of DEM walls"
-    "Inspects, repairs, converts and generates triangle meshes, finds\ndistances and collisions, measures what settings of a DEM wall cost,\nand makes reports of runs.")
-  set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "python3-matplotlib, python3-lsdcd")
+    "Inspects, repairs, converts and generates triangle meshes, finds\ndistances and collisions, measures what settings of a DEM wall cost,\nand makes reports and films of runs.")
+  set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "python3-matplotlib, python3-lsdcd, python3-pil")
 endif()
 if(TARGET lsdcdplugin)
   list(APPEND CPACK_COMPONENTS_ALL lammps)

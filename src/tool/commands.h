@@ -23,5 +23,6 @@ void add_accuracy_command(Command &program);
 void add_effects_command(Command &program);
 // Those of the Python package.
 void add_report_command(Program &program);
+void add_film_command(Program &program);
 
 }    // namespace lsdcd

@@ -26,4 +26,10 @@ void add_report_command(Program &program)
                     [](const std::vector<std::string> &words) { become_module("report", words); });
 }
 
+void add_film_command(Program &program)
+{
+  program.passes_on("film", "draws a run as a film or as pictures",
+                    [](const std::vector<std::string> &words) { become_module("film", words); });
+}
+
 }    // namespace lsdcd

@@ -85,6 +85,7 @@ NOT_RUN = {
     ("doc/recipes.md", "apt install gmsh"): "installs a program, and has a file of CAD",
     ("doc/recipes.md", "surfaceMeshExtract"): "needs OpenFOAM",
     ("doc/report.md", "lsdcd report"): "needs the folder of a run; test_report.py and test_report_of_runs.py make some",
+    ("doc/report.md", "lsdcd film"): "needs the folder of a run; test_film.py makes some",
     ("doc/tool.md", "lsdcd report"): "needs the folder of a run; test_report.py and test_report_of_runs.py make some",
     ("doc/tutorial.md", "paraview"): "opens a window; test_paraview runs its script",
 }

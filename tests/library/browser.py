@@ -134,7 +134,7 @@ class Firefox(Browser):
                  "network.captive-portal-service.enabled": False, "network.connectivity-service.enabled": False}
         (profile / "user.js").write_text("".join(f'user_pref("{name}", {json.dumps(value)});\n' for name, value in prefs.items()))
         self.told = open(profile / "told.txt", "w+", encoding="utf-8", errors="replace")
-        self.process = subprocess.Popen([self.program, "--headless", "--marionette", "--no-remote", "--profile", profile], stdout=self.told,
+        self.process = subprocess.Popen([self.program, "--headless", "--marionette", "--remote-allow-system-access", "--no-remote", "--profile", profile], stdout=self.told,
                                         stderr=subprocess.STDOUT, env={**os.environ, "HOME": str(profile), "MOZ_DISABLE_CONTENT_SANDBOX": "1"})
         port, end = profile / "MarionetteActivePort", time.time() + LONG
         while not (port.exists() and port.read_text().strip()):

@@ -31,7 +31,7 @@ needs_mypy = pytest.mark.skipif(not shutil.which("mypy"), reason="no mypy (Debia
 SETTINGS = f"""[mypy]
 strict = True
 mypy_path = {ROOT}/src/api
-[mypy-matplotlib.*]
+[mypy-matplotlib.*,PIL.*]
 ignore_missing_imports = True
 [mypy-{",".join(path.stem for path in EXAMPLES)}]
 disallow_untyped_defs = False

@@ -19,7 +19,7 @@ from triangles import cube
 NEEDS = {"inspect": "file is required", "repair": "file is required", "convert": "file is required",
          "generate": "subcommand is required", "grid": "file is required", "distance": "mesh is required", "collide": "wall is required",
          "material": "file is required", "timestep": "--radius is required", "tradeoff": "file is required", "accuracy": None, "effects": None,
-         "report": "required: folder"}
+         "report": "required: folder", "film": "required: folder"}
 # Words that make an example quick.
 QUICK = {"tradeoff": "--spheres 100 --moving 2 --repeats 1 --seconds 0.2 --device cpu --plot none"}
 
@@ -78,6 +78,7 @@ GOOD = [
     ("material glass.lsdcd glass --on aluminium --json", {}),
     ("effects --json", {}),
     ("report . -o page.html", ["page.html: 0.0"]),
+    ("film . --width 60 --height 60 -o still.gif", ["still.gif: 1 frame"]),
 ]
 
 NO_FILE = "No such file or directory"
@@ -168,6 +169,8 @@ def scene(folder):
     (folder / "points.csv").write_text("0.5,0.5,1.25\n9,9,9\n")
     (folder / "text.stl").write_text("no mesh at all\n")
     (folder / "log.lammps").write_text("units si\ntimestep 1e-5\nStep KinEng\n0 1\n100 2\nLoop time of 1\nTotal wall time: 0:00:01\n")
+    (folder / "grains.dump").write_text("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n"
+                                        "ITEM: ATOMS id type x y z radius\n1 1 0.5 0.5 0.5 0.1\n")
     run(folder, "convert", "wall.stl", "-o", "wall.obj")
 
 
@@ -183,8 +186,8 @@ def check_full_output(folder, commands):
 
 
 def check_json(folder, commands):
-    """Every command has --json, as doc/tool.md says, but those that write CSV and HTML."""
-    for command in sorted(set(commands) - {"tradeoff", "accuracy", "report"}):
+    """Every command has --json, as doc/tool.md says, but those that write CSV, HTML and pictures."""
+    for command in sorted(set(commands) - {"tradeoff", "accuracy", "report", "film"}):
         words = [command, "box"] if command == "generate" else [command]
         fact(f"{command} has --json", "--json" in run(folder, *words, "--help").stdout)
     materials = json.loads(run(folder, "material", "glass.lsdcd", "--json").stdout)["materials"]

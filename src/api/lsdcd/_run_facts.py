@@ -136,11 +136,11 @@ def plot_key(column: Column) -> tuple[str, str]:
 
 
 def plots_of(all_series: list[Series]) -> list[tuple[str, list[Series]]]:
-    """Titles of plots, and what each has. A column that is 0 throughout is in the table alone."""
+    """Titles of plots, and what each has. A column that never changes is in the table alone."""
     groups: dict[tuple[str, str], list[Series]] = {}
     for series in all_series:
         known = series.values[np.isfinite(series.values)]
-        if len(known) > 1 and np.any(known != 0):
+        if len(known) > 1 and np.any(known != known[0]):
             groups.setdefault(plot_key(series.column), []).append(series)
     found = []
     for (_, first), group in groups.items():

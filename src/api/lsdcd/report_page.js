@@ -8,7 +8,7 @@ const data = JSON.parse(document.getElementById('data').textContent);
 const at = id => document.getElementById(id);
 const css = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-const VIRIDIS = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
+const VIRIDIS = [[86, 36, 108], [77, 54, 128], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
 const HEAT = [[70, 74, 84], [105, 78, 62], [140, 84, 40], [185, 92, 10], [222, 110, 0], [238, 142, 42], [247, 178, 80], [252, 214, 130], [255, 243, 190]];
 const COLOURS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8a8f98', '#a89500', '#7b4fb5', '#b8524f'];
 
@@ -70,7 +70,8 @@ function showNumbers() {
     const row = at('numbers').insertRow(), head = row.appendChild(made('th', n.name, {scope: 'row'}));
     head.append(made('small', [n.owner, n.meaning].filter(Boolean).join(': ')));
     const cell = row.insertCell();
-    if (n.rate === null) cell.append(`${withError(n.mean, n.error)} ${n.unit}`, made('small', `from ${text(n.least)} to ${text(n.most)}`));
+    if (n.least === n.most) cell.append(`${text(n.last)} ${n.unit}`);
+    else if (n.rate === null) cell.append(`${withError(n.mean, n.error)} ${n.unit}`, made('small', `from ${text(n.least)} to ${text(n.most)}`));
     else cell.append(`${text(n.last)} ${n.unit}`, made('small', `${withError(n.rate, n.rate_error)} ${n.rate_unit}`));
   }
 }
