@@ -123,6 +123,25 @@ class Chromium(Browser):
         return [address for address in asked if not address.startswith(("data:", "blob:", "about:"))]
 
 
+class Screen:
+    """A screen of Xvfb (Debian: xvfb), on which Firefox has WebGL; without Xvfb it has none."""
+
+    def __init__(self):
+        self.process, self.name = None, ""
+        if shutil.which("Xvfb"):
+            reading, writing = os.pipe()
+            self.process = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "1600x1200x24", "-nolisten", "tcp"], pass_fds=[writing],
+                                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            os.close(writing)
+            with os.fdopen(reading) as told:
+                self.name = f":{told.readline().strip()}"
+
+    def end(self):
+        if self.process:
+            self.process.terminate()
+            self.process.wait()
+
+
 class Firefox(Browser):
     program = shutil.which("firefox-esr") or ""
 
@@ -134,8 +153,11 @@ class Firefox(Browser):
                  "network.captive-portal-service.enabled": False, "network.connectivity-service.enabled": False}
         (profile / "user.js").write_text("".join(f'user_pref("{name}", {json.dumps(value)});\n' for name, value in prefs.items()))
         self.told = open(profile / "told.txt", "w+", encoding="utf-8", errors="replace")
-        self.process = subprocess.Popen([self.program, "--headless", "--marionette", "--remote-allow-system-access", "--no-remote", "--profile", profile], stdout=self.told,
-                                        stderr=subprocess.STDOUT, env={**os.environ, "HOME": str(profile), "MOZ_DISABLE_CONTENT_SANDBOX": "1"})
+        self.screen = Screen()
+        where = {"DISPLAY": self.screen.name} if self.screen.name else {"MOZ_HEADLESS": "1"}
+        self.process = subprocess.Popen([self.program, "--marionette", "--remote-allow-system-access", "--no-remote", "--profile", profile],
+                                        stdout=self.told, stderr=subprocess.STDOUT,
+                                        env={**os.environ, **where, "HOME": str(profile), "MOZ_DISABLE_CONTENT_SANDBOX": "1"})
         port, end = profile / "MarionetteActivePort", time.time() + LONG
         while not (port.exists() and port.read_text().strip()):
             if time.time() > end or self.process.poll() is not None:
@@ -145,6 +167,10 @@ class Firefox(Browser):
         self.asked, self.rest = 0, b""
         self.message()    # who answers
         self.call("WebDriver:NewSession")
+
+    def __exit__(self, *_):
+        super().__exit__()
+        self.screen.end()
 
     def message(self):
         while b":" not in self.rest:
