@@ -134,7 +134,7 @@ def set_input(browser, name, value, event="input", what="value"):
 
 
 @pytest.mark.parametrize("kind", BROWSERS)
-def test_browser(folder, kind):
+def test_page_in_a_browser(folder, kind):
     """At 1400 and 400 px, light and dark: nothing is wider than the window, the slider, a drag and the choice of a field change the picture, and
     the console has no error."""
     page = folder / "mill" / "report.html"
@@ -191,7 +191,7 @@ def as_it_was(mill, at, share):
 
 
 @pytest.mark.parametrize("kind", BROWSERS)
-def test_live(folder, kind):
+def test_live_page_in_a_browser(folder, kind):
     """A page that is open loads itself again while the run goes on, keeps what was chosen, and stops when the run ends."""
     at = folder / f"live-{kind.__name__}"
     at.mkdir()
