@@ -238,6 +238,34 @@ def test_meshes_without_files_are_those_of_the_log(folder):
     fact("another is named", any("mesh 'lid' is not drawn" in note and "lid.stl" in note for note in data["notes"]), data["notes"])
 
 
+def test_large_meshes_have_fewer_frames(folder, monkeypatch):
+    at = fresh(folder, "fewer")
+    write_run(at)
+    monkeypatch.setattr(report, "MESH_BYTES", 3 * (at / "wall_100.vtp").stat().st_size)
+    data = data_of(at)
+    fact("three of four", len(data["view"]["meshes"][0]["frames"]) == 3, len(data["view"]["meshes"][0]["frames"]))
+    fact("it is told", "of the 4 large files of mesh 'wall' 3 are shown" in data["notes"], data["notes"])
+
+
+def test_coarser_meshes():
+    """Fewer triangles, on the same places to the width of a cell, and the largest number of each field stays."""
+    n = 60
+    points = np.array([[x, y, 0.3 * np.sin(x)] for x in np.linspace(0, 6, n) for y in np.linspace(0, 6, n)])
+    corners = np.arange(n * n).reshape(n, n)
+    triangles = np.concatenate([np.stack([corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:]], axis=-1).reshape(-1, 3),
+                                np.stack([corners[:-1, :-1], corners[1:, 1:], corners[:-1, 1:]], axis=-1).reshape(-1, 3)])
+    values = np.random.default_rng(2).random(len(triangles))
+    made = report.coarser(_run_files.Surface(points, triangles, {"worn_depth": values}), 20)
+    fact("fewer", 400 < len(made.triangles) < 1200 < len(triangles), len(made.triangles))
+    area = np.linalg.norm(np.cross(*(made.points[made.triangles[:, k]] - made.points[made.triangles[:, 0]] for k in (1, 2))), axis=1).sum() / 2
+    whole = np.linalg.norm(np.cross(*(points[triangles[:, k]] - points[triangles[:, 0]] for k in (1, 2))), axis=1).sum() / 2
+    at_most("their area", abs(area / whole - 1), 0.05)
+    far = np.abs(made.points[made.triangles].mean(axis=1)[:, None, :2] - points[None, ::7, :2]).max(axis=2).min(axis=1)
+    at_most("their places", far.max(), 6 / 20 * 2)
+    fact("numbers are some of those that there were", set(made.fields["worn_depth"]) <= set(values))
+    fact("none is above the largest, which stays nearly", 0.99 * values.max() < made.fields["worn_depth"].max() <= values.max())
+
+
 def test_placement():
     """scale, rotate, move and matrix, in their order, against products of matrices."""
     words = "drum.stl scale 2 3 4 rotate 0 0 2 90 move 1 0 0 matrix 0 1 0 5 1 0 0 6 0 0 1 7 motion rotate 0 0 0 0 1 0 3".split()

@@ -31,6 +31,7 @@ from ._run_files import Array, Entry, Frame, Grains, InputError, Log, MeshWords,
 HERE = pathlib.Path(__file__).resolve().parent
 MOST_FRAMES = 60       # of the view
 MOST_POINTS = 400      # of a plot
+MESH_BYTES = 200e6     # of files of one mesh that are read
 RANGE = 1e9            # of a field, from the largest number to the least that is not 0
 QUANTILE = 0.98        # of the numbers that are not 0, at which colours end
 FIXED = 90000          # bytes of a page without meshes and grains, roughly
@@ -85,17 +86,20 @@ def coarser(surface: Surface, cells: int) -> Surface:
     """A mesh whose corners are those of a lattice, so that small triangles fall together; each that is left has the largest numbers of
     those that fell on it."""
     low, size = surface.points.min(axis=0), max(float(np.ptp(surface.points, axis=0).max()), 1e-300)
-    lattice = np.round((surface.points - low) / size * cells).astype(np.int64)
-    _, first, corner = np.unique(lattice, axis=0, return_index=True, return_inverse=True)
-    triangles = corner.reshape(-1)[surface.triangles]
-    kept = (triangles[:, 0] != triangles[:, 1]) & (triangles[:, 1] != triangles[:, 2]) & (triangles[:, 2] != triangles[:, 0])
-    _, one, group = np.unique(np.sort(triangles[kept], axis=1), axis=0, return_index=True, return_inverse=True)
-    merged = {}
-    for name, values in surface.fields.items():
-        most = np.full(len(one), -np.inf)
-        np.maximum.at(most, group.reshape(-1), values[kept])
-        merged[name] = most
+    _, first, corner = np.unique(in_one(np.round((surface.points - low) / size * cells), cells + 1), return_index=True, return_inverse=True)
+    triangles = corner[surface.triangles]
+    kept = np.flatnonzero((triangles[:, 0] != triangles[:, 1]) & (triangles[:, 1] != triangles[:, 2]) & (triangles[:, 2] != triangles[:, 0]))
+    _, one, group = np.unique(in_one(np.sort(triangles[kept], axis=1), len(first)), return_index=True, return_inverse=True)
+    order = np.argsort(group, kind="stable")
+    begins = np.searchsorted(group[order], np.arange(len(one)))
+    merged = {name: np.maximum.reduceat(values[kept][order], begins) if len(one) else np.zeros(0) for name, values in surface.fields.items()}
     return Surface(surface.points[first], triangles[kept][one], merged)
+
+
+def in_one(rows: Array, base: int) -> Array:
+    """Rows of three whole numbers below a base as one number each."""
+    a, b, c = rows.astype(np.int64).T
+    return np.asarray((a * base + b) * base + c)
 
 
 def thinned(entries: list[Any], most: int) -> list[Any]:
@@ -137,7 +141,11 @@ def moving_meshes(folder: pathlib.Path, log: Log, most: int, notes: list[str]) -
     """Meshes of the view, with at most so many files of each."""
     found = []
     for words in mesh_words(folder, log):
-        entries = thinned(files.series_of(folder, words.fields, log), most) if words.fields else []
+        entries = files.series_of(folder, words.fields, log) if words.fields else []
+        fits = int(MESH_BYTES / max([entry.path.stat().st_size for entry in entries], default=1))
+        if fits < min(most, len(entries)):
+            notes.append(f"of the {len(entries)} large files of mesh '{words.title}' {max(fits, 2)} are shown")
+        entries = thinned(entries, min(most, max(fits, 2)))
         mesh = Moving(words.title, [], [])
         for entry in entries:
             try:
@@ -163,7 +171,7 @@ def coarse_meshes(meshes: list[Moving], triangles: int) -> tuple[list[Moving], l
     """Meshes of at most so many triangles each, and what is to be said of them."""
     found, said = [], []
     for mesh in meshes:
-        n, cells, first = len(mesh.surfaces[0].triangles), 1024, mesh.surfaces[0]
+        n, cells, first = len(mesh.surfaces[0].triangles), int(3 * math.sqrt(triangles)), mesh.surfaces[0]
         while n > triangles and cells > 4:
             first = coarser(mesh.surfaces[0], cells)
             if len(first.triangles) <= triangles:
@@ -182,8 +190,7 @@ def _as_first(first: Surface, surface: Surface, cells: int) -> Surface:
     """A later mesh made coarse as the first one is: the same corners fall together, and they move as the first of each does."""
     made = coarser(Surface(first.points, first.triangles, surface.fields), cells)
     low, size = first.points.min(axis=0), max(float(np.ptp(first.points, axis=0).max()), 1e-300)
-    lattice = np.round((first.points - low) / size * cells).astype(np.int64)
-    corner = np.unique(lattice, axis=0, return_index=True)[1]
+    corner = np.unique(in_one(np.round((first.points - low) / size * cells), cells + 1), return_index=True)[1]
     return Surface(surface.points[corner], made.triangles, made.fields)
 
 
