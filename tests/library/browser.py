@@ -56,7 +56,7 @@ class Chromium(Browser):
 
         self.process = subprocess.Popen(
             [self.program, "--headless=new", "--no-sandbox", "--remote-debugging-pipe", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-             "--disable-gpu-sandbox", f"--user-data-dir={folder}", "about:blank"],
+             "--disable-gpu-sandbox", "--hide-scrollbars", f"--user-data-dir={folder}", "about:blank"],
             close_fds=False, preexec_fn=as_3_and_4, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.writing, self.reading = own_writing, os.fdopen(own_reading, "rb")
         for end in (to_read, to_write):

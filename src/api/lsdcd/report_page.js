@@ -31,7 +31,7 @@ function text(value, digits = 4) {
   if (value === null || value === undefined || !Number.isFinite(value)) return '-';
   if (value === 0) return '0';
   const size = Math.abs(value);
-  return size >= 1e6 || size < 1e-3 ? value.toExponential(digits - 2).replace('e+', 'e') : String(+value.toPrecision(digits));
+  return size >= 1e6 || size < 1e-3 ? value.toExponential(digits - 1).replace('e+', 'e') : String(+value.toPrecision(digits));
 }
 
 // A value and its error, as many digits as the error leaves.
