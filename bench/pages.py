@@ -508,6 +508,50 @@ def two_triangles(cuda, vessel):
             "([more](doc/paper.md#what-two-triangles-miss)).\nLSDCD's default misses none.")
 
 
+# ---- tables of validation.md ---------------------------------------------------------------
+
+VALIDATION = "validation_cpu.tsv"
+WALLS = ("LAMMPS", "two", "slivers")
+
+
+def validation_rows():
+    lines = (DATA / VALIDATION).read_text().splitlines()
+    return list(csv.DictReader((line for line in lines if not line.startswith("#")), delimiter="\t"))
+
+
+def validation_cases(rows):
+    """A table for each case, and under it where its numbers are from and why its tolerances are what they are, by letters."""
+    made = []
+    for title in dict.fromkeys(r["title"] for r in rows):
+        its = [r for r in rows if r["title"] == title]
+        notes = {}
+        for r in its:
+            notes.setdefault((r["source"], r["reason"]), chr(ord("a") + len(notes)))
+
+        def cells(r):
+            unit = "" if r["unit"] == "1" else " " + r["unit"]
+            seen = {w: f"{float(r[w]):.6g}" for w in WALLS if r[w]}
+            values = next(iter(seen.values())) if len(set(seen.values())) == 1 else "; ".join(f"{w} {v}" for w, v in seen.items())
+            return [r["quantity"], f"{float(r['expected']):.6g}{unit}", values, ", ".join(seen), r["deviation"], f"{r['tolerance']} ({notes[r['source'], r['reason']]})"]
+
+        told = [f"- ({letter}) Expected: {source}. Tolerance: {reason}." for (source, reason), letter in notes.items()]
+        made.append(f"### {title}\n\n" + table(its, ["quantity", "expected", "seen", "walls", "deviation", "tolerance"], cells) + "\n\n" + "\n".join(told))
+    return "\n\n".join(made)
+
+
+def validation_in_short(rows):
+    """The page's sentence on what holds."""
+    cases, meshes = {r["case"] for r in rows}, [r for r in rows if r["two"] and r["slivers"]]
+    apart = [r for r in meshes if r["two"] != r["slivers"]]
+    return (f"{len(rows)} numbers of {len(cases)} cases, of which {sum(r['holds'] == 'yes' for r in rows)} are within their tolerance. {len(meshes)} were seen with two triangles and with "
+            f"slivers, {len(meshes) - len(apart)} of them with the same digits")
+
+
+def validation_promise(rows):
+    """README's words for the same."""
+    return f"{len(rows)} numbers of {len({r['case'] for r in rows})} cases against closed forms, others' curves and an experiment"
+
+
 # ---- pages ---------------------------------------------------------------------------------
 
 def tables():
@@ -525,7 +569,9 @@ def tables():
                         "kept": kept_list(vessel), "drift": drift(vessel), "paper": settings(tradeoff("paper"))},
         "paper.md": {"misses": paper_misses(study_cuda, vessel["cpu"]), "table-2": paper_table2(study_cpu, study_cuda),
                      "figures": paper_figures(study_cpu, study_cuda), "formula-5": paper_formula5(study_cpu)},
-        "../README.md": {"two-triangles": two_triangles(study_cuda, vessel["cpu"]), "accuracy-time": time_in_short(vessel)},
+        "validation.md": {"validation-short": validation_in_short(validation_rows()), "validation": validation_cases(validation_rows())},
+        "../README.md": {"two-triangles": two_triangles(study_cuda, vessel["cpu"]), "accuracy-time": time_in_short(vessel),
+                         "validation-promise": validation_promise(validation_rows())},
     }
 
 

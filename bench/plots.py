@@ -286,7 +286,32 @@ def draw_figures(rows_by_device):
     write_image(figure, "paper_figures.png", dpi=90)
 
 
+# ---- validation.md -------------------------------------------------------------------------
+
+MARKERS = {"Chung": dict(marker="s", color="#D55E00"), "experiment": dict(marker="D", color="#009E73"), "MFiX": dict(marker="x", color="#CC79A7"),
+           "FEM": dict(marker="s", color="#D55E00")}
+
+
+def draw_validation(ours, published):
+    """Our curves of impacts at an angle, and the points that others published."""
+    panels = (("oblique, tangential restitution", "angle from the normal, degrees", "tangential restitution"), ("oblique, spin", "angle from the normal, degrees", "spin, rad/s"),
+              ("oblique at a constant normal speed, R spin/(mu v_n)", "v_t/(mu v_n)", "R spin/(mu v_n)"))
+    figure, all_axes = plt.subplots(1, 3, figsize=(16.5, 5.2))
+    for axis, (curve, x, y), place in zip(all_axes, panels, ("lower right", "lower center", "upper right")):
+        axis.plot(*zip(*((float(r["x"]), float(r["value"])) for r in ours if r["curve"] == curve)), color="#0072B2", label="LSDCD")
+        its = [r for r in published if r["curve"] == curve]
+        for source in dict.fromkeys(r["source"] for r in its):
+            points = [(float(r["x"]), float(r["value"])) for r in its if r["source"] == source and float(r["x"]) < (8.1 if "v_t" in x else 90)]
+            axis.plot(*zip(*points), linestyle="", fillstyle="none", markersize=8, label=source.partition(" (")[0], **MARKERS[source.split()[0].rstrip(":")])
+        axis.set(xlabel=x, ylabel=y)
+        axis.legend(fontsize=FONT - 3, loc=place)
+        legible(axis)
+    figure.tight_layout()
+    write_image(figure, "validation_oblique.png", 80)
+
+
 def draw_all():
+    draw_validation(rows_of("validation_curves_cpu.csv"), rows_of("validation_published.csv"))
     draw_mesh_size(both("mesh-size"))
     draw_effects(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))
     # A step that reads lists of the wall, on the same spheres, nothing copied.

@@ -87,6 +87,7 @@ NOT_RUN = {
     ("doc/report.md", "lsdcd report"): "needs the folder of a run; test_report.py and test_report_of_runs.py make some",
     ("doc/report.md", "lsdcd film"): "needs the folder of a run; test_film.py makes some",
     ("doc/tool.md", "lsdcd report"): "needs the folder of a run; test_report.py and test_report_of_runs.py make some",
+    ("doc/validation.md", "./run validate"): COMPILES,
     ("doc/tutorial.md", "paraview"): "opens a window; test_paraview runs its script",
 }
 

@@ -1,0 +1,15 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""All cases, in the order of the page: modules list their cases as they are read."""
+
+import impacts
+import resting
+import rolling
+from suite import CASES
+
+ORDER = ("hertz-wall", "hertz-pair", "restitution", "bouncing", "oblique", "oblique-normal", "spinning", "spinning-pair", "slip-roll", "incline", "rolling",
+         "held", "spin-down", "pressed", "jkr")
+assert sorted(ORDER) == sorted(CASES), "a case is missing in the order of the page"
+CASES = {name: CASES[name] for name in ORDER}
+MODULES = (impacts, rolling, resting)

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""Forces on grains that are held: two grains between walls, and adhesion."""
+
+import math
+
+import lmp
+from suite import G, Grain, Seen, case, fly
+
+
+@case("pressed", "Two grains pressed between two walls (MFiX DEM03)")
+def pressed(setting):
+    radius, kn, gap = 5e-4, 1e3, 1.8e-3
+    grains = [Grain((0, 0, 4.5e-4), radius, 20000.0), Grain((0, 0, 1.35e-3), radius, 10000.0)]
+    lower, upper = (g.mass * G for g in grains)
+    # Three springs in a row: k (d1 - d2) = m1 g, k (d2 - d3) = m2 g, and together they are as long as 4 R is more than the gap.
+    d2 = (4 * radius - gap - (lower - upper) / kn) / 3
+    exact = {"floor and lower grain": d2 + lower / kn, "grains": d2, "upper grain and lid": d2 - upper / kn}
+    dt = math.pi * math.sqrt(grains[1].mass / 2 / kn) / 50
+    law = f"hooke {kn!r} {0.5 * math.sqrt(kn / grains[1].mass)!r} tangential linear_nohistory 0.0 0.0 damping mass_velocity"
+    if setting.is_mesh:
+        walls = f"fix wall all wall/lsdcd granular {law} mesh {setting.wall}.stl scale 0.01 mesh {setting.wall}.stl scale 0.01 move 0 0 {gap!r}\n"
+    else:
+        walls = lmp.flat_walls(f"fix wall all wall/gran granular {law} zplane 0 {gap!r}")
+    states = fly(setting, grains, (-0.02, 0.02, -0.02, 0.02, -1e-3, 3e-3), walls + setting.gravity(), dt, 8000, pair_law=law)
+    a, b = states[max(states)]
+    seen = dict(zip(exact, (radius - a["z"], 2 * radius - (b["z"] - a["z"]), radius - (gap - b["z"]))))
+    for name, overlap in exact.items():
+        yield Seen(f"overlap of {name}", "m", seen[name], overlap, "three springs in a row, closed form; the case is MFiX DEM03", 1e-12,
+                   "round-off of places, 1e-19 m, over an overlap, 7e-5 m, for each of thousands of steps; what swings is damped to nothing")
+
+
+@case("jkr", "Pull-off of a grain with jkr that slides over the floor (Johnson, Kendall and Roberts 1971)")
+def jkr(setting):
+    radius, young, nu, gamma, pull = 1e-3, 1e7, 0.3, 0.1, 1e-4
+    # Plane walls of LAMMPS 29Sep2021 have E/(2 (1 - nu)) for a material (doc/other-walls.md); this is their word for the same modulus.
+    word = young if setting.is_mesh or lmp.version() > 20211001 else young / (1 + nu)
+    law = f"jkr {word!r} 0.0 {nu!r} {gamma!r} tangential linear_history 10.0 0.0 0.3 damping velocity"
+    modulus = young / (2 * (1 - nu ** 2))
+    force = 3 * math.pi * gamma * radius
+    # F and d in the radius a of the contact (doc/theory.md): F is least at this a.
+    a3 = 9 * math.pi * gamma * radius ** 2 / (4 * modulus)
+    a = a3 ** (1 / 3)
+    at = a * a / radius - 2 * math.sqrt(math.pi * gamma * a / modulus)
+    dt = 1e-6
+    for speed in (0.0, 0.5):
+        states = fly(setting, [Grain((-2e-3, 0, radius - 1e-7), radius, 2500.0)], (-0.02, 0.02, -0.02, 0.02, -5e-3, 5e-3), setting.floor(law, 0.01), dt, 10500, 1,
+                     move=f"move linear {speed!r} 0.0 {pull!r} units box")
+        where = f"sliding at {speed:g} m/s over the floor" if speed else "pulled straight up"
+        worst = min(states, key=lambda s: states[s][0]["fz"])
+        last = max(s for s in states if states[s][0]["fz"] != 0)
+        # Near it the force is 3 pi gamma R (1 - (x/d)^2) or so.
+        near = "flat at its greatest, and a step moves the grain by 1.2e-4 of the reach"
+        yield Seen(f"{where}: greatest pull", "N", -states[worst][0]["fz"], force, "3 pi gamma R (Johnson, Kendall and Roberts 1971)", 1e-7, near)
+        yield Seen(f"{where}: overlap at the greatest pull", "m", radius - states[worst][0]["z"], at, "closed form of JKR", 2.4e-4, "two steps, of 1.2e-4 of the reach")
+        if setting.is_mesh:
+            yield Seen(f"{where}: overlap as it lets go", "m", radius - states[last][0]["z"], at, "closed form of JKR", 2.4e-4, "two steps, of 1.2e-4 of the reach")
+            if speed:
+                yield Seen(f"{where}: friction at the greatest pull", "N", -states[worst][0]["fx"], 0.3 * force, "mu (F + 2 F_pulloff)", 1e-7, near)

@@ -1,0 +1,42 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""The cases of ./run validate: each number is within its tolerance, the same at both cuts of a plane to the bit, and that of doc/validation.md."""
+
+import pytest
+
+import suite
+from cases import CASES
+from facts import at_most, fact
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_case(name, folder):
+    kept = {row["quantity"]: row for row in suite.kept_rows() if row["case"] == name}
+    rows = suite.run_case(name, folder)
+    fact("the page has these numbers", list(kept) == [r.quantity for r in rows], f"{set(kept) ^ {r.quantity for r in rows}}; ./run validate --keep")
+    for r in rows:
+        for wall in r.seen:
+            at_most(f"{r.quantity}, {wall}: {r.seen[wall]:.9g} is {r.expected:.9g}", r.deviation(wall), r.tolerance)
+        fact(f"{r.quantity}: the same bits at two triangles and at slivers", r.same_at_both_cuts(), r.seen)
+        if r.quantity in kept:
+            compare(r, kept[r.quantity])
+
+
+def compare(row, kept):
+    """States that the page has what a run sees, to 1e-6 or a tenth of the tolerance: other processors and versions of LAMMPS round otherwise."""
+    limit = row.tolerance * (1 if row.absolute else abs(row.expected))
+    near = max(0.1 * limit, 1e-6 * abs(row.expected))
+    words = {w: kept[w] for w in suite.AT_WALLS if kept[w]}
+    fact(f"{row.quantity}: the page has the same walls", words.keys() == row.seen.keys(), f"{list(words)}, {list(row.seen)}")
+    for name, value in {**words, "expected": kept["expected"]}.items():
+        now = row.expected if name == "expected" else row.seen.get(name, row.expected)
+        at_most(f"{row.quantity}, {name}: the page has {value}, a run {now:.9g}", abs(float(value) - now), near)
+    told = float(kept["tolerance"])
+    at_most(f"{row.quantity}: the page's tolerance", abs(told - row.tolerance), 0.06 * told)
+
+
+def test_all_rows_of_the_page():
+    cases = list(dict.fromkeys(row["case"] for row in suite.kept_rows()))
+    fact("the page has all cases and no other", cases == list(CASES), f"{cases}")
+    fact("all of its numbers hold", all(row["holds"] == "yes" for row in suite.kept_rows()))

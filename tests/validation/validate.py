@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""Runs validation cases (doc/validation.md) and prints what they saw beside what is expected, with the tolerance and its reason.
+
+usage: validate.py [--list] [--keep] [--tsv] [--jobs N] [--commit NAME] [CASE ...]
+
+Without names it runs the cases of seconds. --keep also puts the rows into doc/data and the table into the page. It ends with 1 if a number is out of its
+tolerance, or if two cuts of a plane give other bits. LSDCD_LMP names another lmp-lsdcd than that of build/; LSDCD_ON_HOST, LSDCD_HOST and
+the others of tests/lammps/lmp.py another LAMMPS, as one with Kokkos.
+"""
+import argparse
+import concurrent.futures
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent), str(HERE.parent / "lammps"), str(HERE.parent.parent / "bench")]
+
+import rows as bench_rows
+from cases import CASES
+from impacts import curves
+from suite import AT_WALLS, CURVES, KEPT, as_table, run_case
+
+
+def measure(name):
+    """The rows of a case, and the seconds that it took."""
+    begin = time.monotonic()
+    with tempfile.TemporaryDirectory(prefix="lsdcd-") as folder:
+        return run_case(name, pathlib.Path(folder)), time.monotonic() - begin
+
+
+def said_of(row):
+    seen = {f"{row.seen[w]:.7g}" for w in row.seen}
+    values = seen.pop() if len(seen) == 1 else ", ".join(f"{w} {row.seen[w]:.7g}" for w in AT_WALLS if w in row.seen)
+    verdict = "ok" if row.holds() and row.same_at_both_cuts() else "OUT" if not row.holds() else "CUTS DIFFER"
+    return [verdict, row.quantity, f"{row.expected:.7g} {'' if row.unit == '1' else row.unit}".strip(), values, f"{row.largest_deviation():.1e}",
+            f"{row.tolerance:.1e}"]
+
+
+def show(case, rows, seconds):
+    """Prints the table of a case, and below it where numbers are from and why a tolerance is what it is."""
+    walls = [w for w in AT_WALLS if w in case.walls]
+    print(f"\n{case.name}: {case.title} ({', '.join(walls)}; {seconds:.1f} s)")
+    lines = [["", "quantity", "expected", "seen", "deviation", "tolerance"], *map(said_of, rows)]
+    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
+    for line in lines:
+        print("  " + "  ".join(word.ljust(width) for word, width in zip(line, widths)).rstrip())
+    for what, words in (("expected", dict.fromkeys(r.source for r in rows)), ("tolerance", dict.fromkeys(r.reason for r in rows))):
+        for each in words:
+            print(f"  {what}: {each}")
+
+
+def keep(rows, commit):
+    """Puts the rows and the curves into doc/data, and the tables into the page."""
+    KEPT.write_text(f"# commit {commit}, {bench_rows.cpu()}\n" + as_table(rows))
+    with tempfile.TemporaryDirectory(prefix="lsdcd-") as folder:
+        points = [dict(curve=curve, x=f"{x:g}", value=f"{value:.6g}", commit=commit) for curve, x, value in curves(pathlib.Path(folder))]
+    CURVES.write_text(bench_rows.as_csv(points))
+    subprocess.run([sys.executable, str(HERE.parent.parent / "bench" / "pages.py")], check=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--list", action="store_true", help="print names and titles of the cases")
+    parser.add_argument("--keep", action="store_true", help="put the rows into doc/data, and the table into doc/validation.md")
+    parser.add_argument("--tsv", action="store_true", help="print rows as doc/data has them")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="how many cases at once")
+    parser.add_argument("--commit", default=bench_rows.commit())
+    parser.add_argument("names", nargs="*", metavar="CASE")
+    args = parser.parse_args()
+    if args.list:
+        print("\n".join(f"{case.name:16} {case.title}" for case in CASES.values()))
+        return 0
+    unknown = [name for name in args.names if name not in CASES]
+    if unknown or args.keep and args.names:
+        parser.error(f"no case '{unknown[0]}'; --list names them" if unknown else "--keep is for all cases")
+    begin, rows, bad = time.monotonic(), [], 0
+    with concurrent.futures.ProcessPoolExecutor(args.jobs) as pool:
+        names = args.names or list(CASES)
+        for name, (its, seconds) in zip(names, pool.map(measure, names)):
+            rows += its
+            bad += sum(not (r.holds() and r.same_at_both_cuts()) for r in its)
+            if not args.tsv:
+                show(CASES[name], its, seconds)
+    if args.tsv:
+        print(as_table(rows), end="")
+    else:
+        print(f"\n{len(rows)} numbers of {len(names)} cases: {bad or 'none'} out of tolerance or other at another cut ({time.monotonic() - begin:.0f} s)")
+    if args.keep:
+        keep(rows, args.commit)
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
