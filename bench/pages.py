@@ -510,12 +510,11 @@ def two_triangles(cuda, vessel):
 
 # ---- tables of validation.md ---------------------------------------------------------------
 
-VALIDATION = "validation_cpu.tsv"
 WALLS = ("LAMMPS", "two", "slivers")
 
 
-def validation_rows():
-    lines = (DATA / VALIDATION).read_text().splitlines()
+def validation_rows(name="validation_cpu.tsv"):
+    lines = (DATA / name).read_text().splitlines()
     return list(csv.DictReader((line for line in lines if not line.startswith("#")), delimiter="\t"))
 
 
@@ -537,6 +536,17 @@ def validation_cases(rows):
         told = [f"- ({letter}) Expected: {source}. Tolerance: {reason}." for (source, reason), letter in notes.items()]
         made.append(f"### {title}\n\n" + table(its, ["quantity", "expected", "seen", "walls", "deviation", "tolerance"], cells) + "\n\n" + "\n".join(told))
     return "\n\n".join(made)
+
+
+def validation_liggghts(rows):
+    """What LIGGGHTS sees in three of the cases."""
+    walls = ("plane", "two", "slivers")
+
+    def cells(r):
+        seen = {w: f"{float(r[w]):.6g}" for w in walls}
+        there = seen["plane"] if len(set(seen.values())) == 1 else "; ".join(f"{w} {v}" for w, v in seen.items())
+        return [r["case"].partition(" (")[2].rstrip(")"), r["quantity"], f"{float(r['expected']):.6g}{'' if r['unit'] == '1' else ' ' + r['unit']}", f"{float(r['LSDCD']):.6g}", there]
+    return table(rows, ["case", "quantity", "expected", "LSDCD", "LIGGGHTS 3.8"], cells)
 
 
 def validation_in_short(rows):
@@ -569,7 +579,9 @@ def tables():
                         "kept": kept_list(vessel), "drift": drift(vessel), "paper": settings(tradeoff("paper"))},
         "paper.md": {"misses": paper_misses(study_cuda, vessel["cpu"]), "table-2": paper_table2(study_cpu, study_cuda),
                      "figures": paper_figures(study_cpu, study_cuda), "formula-5": paper_formula5(study_cpu)},
-        "validation.md": {"validation-short": validation_in_short(validation_rows()), "validation": validation_cases(validation_rows())},
+        "validation.md": {"validation-short": validation_in_short(validation_rows()), "validation": validation_cases(validation_rows()),
+                          "validation-minutes": validation_cases(validation_rows("validation_minutes_cpu.tsv")),
+                          "validation-liggghts": validation_liggghts(validation_rows("validation_liggghts.tsv"))},
         "../README.md": {"two-triangles": two_triangles(study_cuda, vessel["cpu"]), "accuracy-time": time_in_short(vessel),
                          "validation-promise": validation_promise(validation_rows())},
     }

@@ -289,7 +289,7 @@ def draw_figures(rows_by_device):
 # ---- validation.md -------------------------------------------------------------------------
 
 MARKERS = {"Chung": dict(marker="s", color="#D55E00"), "experiment": dict(marker="D", color="#009E73"), "MFiX": dict(marker="x", color="#CC79A7"),
-           "FEM": dict(marker="s", color="#D55E00")}
+           "FEM": dict(marker="D", color="#009E73")}
 
 
 def draw_validation(ours, published):
@@ -304,6 +304,8 @@ def draw_validation(ours, published):
             points = [(float(r["x"]), float(r["value"])) for r in its if r["source"] == source and float(r["x"]) < (8.1 if "v_t" in x else 90)]
             axis.plot(*zip(*points), linestyle="", fillstyle="none", markersize=8, label=source.partition(" (")[0], **MARKERS[source.split()[0].rstrip(":")])
         axis.set(xlabel=x, ylabel=y)
+        low, high = axis.get_ylim()
+        axis.set_ylim(low - (0.25 * (high - low) if place.startswith("lower") else 0), high)    # room for the names
         axis.legend(fontsize=FONT - 3, loc=place)
         legible(axis)
     figure.tight_layout()

@@ -3,13 +3,14 @@
 
 """All cases, in the order of the page: modules list their cases as they are read."""
 
+import beds
 import impacts
 import resting
 import rolling
 from suite import CASES
 
 ORDER = ("hertz-wall", "hertz-pair", "restitution", "bouncing", "oblique", "oblique-normal", "spinning", "spinning-pair", "slip-roll", "incline", "rolling",
-         "held", "spin-down", "pressed", "jkr")
+         "held", "spin-down", "pressed", "held-force", "jkr", "janssen", "beverloo")
 assert sorted(ORDER) == sorted(CASES), "a case is missing in the order of the page"
 CASES = {name: CASES[name] for name in ORDER}
-MODULES = (impacts, rolling, resting)
+MODULES = (impacts, rolling, resting, beds)

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""Puts a fault into the scripts of all validation cases, one after another, and tells which cases see it: a number or a word other than the case
+"""Puts a fault into the scripts of all validation cases of seconds, one after another, and tells which cases see it: a number or a word other than the case
 asks for, as if the code took it wrong. A fault that no case sees is named at the end.
 
 usage: faults.py [--jobs N] [FAULT ...]
@@ -56,6 +56,8 @@ FAULTS = {
     "jkr-surface-energy": ("jkr", rf"(jkr \S+ \S+ \S+ ){NUMBER}", times(1.01)),
     "jkr-modulus": ("jkr", rf"(jkr ){NUMBER}", times(1.01)),
     "jkr-is-dmt": ("jkr", r"granular jkr", "granular dmt"),
+    "dmt-surface-energy": ("cohesion", rf"(dmt \S+ \S+ \S+ ){NUMBER}", times(1.01)),
+    "sjkr": ("cohesion", rf"(sjkr ){NUMBER}", times(1.01)),
     "gravity": ("gravity", rf"(gravity/lsdcd ){NUMBER}", times(1.001)),
     "gravity-leans": ("gravity", r"vector 0 0 -1", "vector 0.001 0 -1"),
     "no-rotation": ("rotation", r"nve/sphere", "nve"),
@@ -92,12 +94,12 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("names", nargs="*", metavar="FAULT")
     args = parser.parse_args()
-    unseen = []
+    unseen, quick = [], [name for name, case in CASES.items() if case.takes == suite.SECONDS]
     with concurrent.futures.ProcessPoolExecutor(args.jobs) as pool:
         names = args.names or list(FAULTS)
-        found = pool.map(seen_by, [(name, case) for name in names for case in CASES])
+        found = pool.map(seen_by, [(name, case) for name in names for case in quick])
         for name in names:
-            its = [next(found) for _ in CASES]
+            its = [next(found) for _ in quick]
             told = [f"{case} {len(out)} of {count}" if count else f"{case}: {out[0]}" for case, changes, out, count in its if changes and out]
             blind = [case for case, changes, out, _ in its if changes and not out]
             print(f"{FAULTS[name][0]:10} {name:22} " + ("; ".join(told) or "NOT SEEN") + (f" (not by {', '.join(blind)})" if blind else ""), flush=True)

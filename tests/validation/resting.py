@@ -58,3 +58,21 @@ def jkr(setting):
             yield Seen(f"{where}: overlap as it lets go", "m", radius - states[last][0]["z"], at, "closed form of JKR", 2.4e-4, "two steps, of 1.2e-4 of the reach")
             if speed:
                 yield Seen(f"{where}: friction at the greatest pull", "N", -states[worst][0]["fx"], 0.3 * force, "mu (F + 2 F_pulloff)", 1e-7, near)
+
+
+@case("held-force", "Force on a grain that is held in the wall")
+def held_force(setting):
+    radius, young, nu, gamma, energy, depth = 1e-3, 1e7, 0.3, 0.1, 3e4, 1e-5
+    modulus = young / (2 * (1 - nu ** 2))
+    word = young if setting.is_mesh or lmp.version() > 20211001 else young / (1 + nu)    # as for jkr
+    push = 4 / 3 * modulus * math.sqrt(radius) * depth ** 1.5
+    tangential = "tangential linear_nohistory 0.0 0.0 damping velocity"
+    laws = {"hertz": (f"hertz/material {word!r} 0.0 {nu!r} {tangential}", push, "Hertz 1882"),
+            "dmt": (f"dmt {word!r} 0.0 {nu!r} {gamma!r} {tangential}", push - 4 * math.pi * gamma * radius, "Derjaguin, Muller and Toporov 1975")}
+    if setting.is_mesh:
+        laws["sjkr"] = (f"hertz/material {word!r} 0.0 {nu!r} {tangential} cohesion sjkr {energy!r}", push - energy * math.pi * (2 * radius - depth) * depth,
+                        "the pull times the area in which the plane cuts the grain")
+    for name, (law, force, of) in laws.items():
+        states = fly(setting, [Grain((0, 0, radius - depth), radius, 2500.0)], (-0.02, 0.02, -0.02, 0.02, -5e-3, 5e-3), setting.floor(law, 0.01), 1e-6, 1,
+                     move="move linear 0.0 0.0 0.0 units box")
+        yield Seen(f"{name}: force at an overlap of R/100", "N", states[1][0]["fz"], force, of, 1e-12, "round-off of the place over the overlap, 1e-19/1e-5, and some more")

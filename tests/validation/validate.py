@@ -4,9 +4,9 @@
 
 """Runs validation cases (doc/validation.md) and prints what they saw beside what is expected, with the tolerance and its reason.
 
-usage: validate.py [--list] [--keep] [--tsv] [--jobs N] [--commit NAME] [CASE ...]
+usage: validate.py [--list] [--minutes] [--keep] [--tsv] [--jobs N] [--commit NAME] [CASE ...]
 
-Without names it runs the cases of seconds. --keep also puts the rows into doc/data and the table into the page. It ends with 1 if a number is out of its
+Without names it runs the cases of seconds, or with --minutes those of minutes. --keep also puts the rows into doc/data and the table into the page. It ends with 1 if a number is out of its
 tolerance, or if two cuts of a plane give other bits. LSDCD_LMP names another lmp-lsdcd than that of build/; LSDCD_ON_HOST, LSDCD_HOST and
 the others of tests/lammps/lmp.py another LAMMPS, as one with Kokkos.
 """
@@ -25,7 +25,7 @@ sys.path[:0] = [str(HERE.parent), str(HERE.parent / "lammps"), str(HERE.parent.p
 import rows as bench_rows
 from cases import CASES
 from impacts import curves
-from suite import AT_WALLS, CURVES, KEPT, as_table, run_case
+from suite import AT_WALLS, CURVES, KEPT, MINUTES, SECONDS, as_table, run_case
 
 
 def measure(name):
@@ -56,18 +56,24 @@ def show(case, rows, seconds):
             print(f"  {what}: {each}")
 
 
-def keep(rows, commit):
-    """Puts the rows and the curves into doc/data, and the tables into the page."""
-    KEPT.write_text(f"# commit {commit}, {bench_rows.cpu()}\n" + as_table(rows))
+def keep(rows, takes, commit):
+    """Puts the rows into doc/data, with those of seconds the curves, too, and the tables into the page."""
+    KEPT[takes].write_text(f"# commit {commit}, {bench_rows.cpu()}\n" + as_table(rows))
+    if takes == SECONDS:
+        keep_curves(commit)
+    subprocess.run([sys.executable, str(HERE.parent.parent / "bench" / "pages.py")], check=True)
+
+
+def keep_curves(commit):
     with tempfile.TemporaryDirectory(prefix="lsdcd-") as folder:
         points = [dict(curve=curve, x=f"{x:g}", value=f"{value:.6g}", commit=commit) for curve, x, value in curves(pathlib.Path(folder))]
     CURVES.write_text(bench_rows.as_csv(points))
-    subprocess.run([sys.executable, str(HERE.parent.parent / "bench" / "pages.py")], check=True)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--list", action="store_true", help="print names and titles of the cases")
+    parser.add_argument("--minutes", action="store_true", help="run the cases that take minutes")
     parser.add_argument("--keep", action="store_true", help="put the rows into doc/data, and the table into doc/validation.md")
     parser.add_argument("--tsv", action="store_true", help="print rows as doc/data has them")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="how many cases at once")
@@ -75,14 +81,15 @@ def main():
     parser.add_argument("names", nargs="*", metavar="CASE")
     args = parser.parse_args()
     if args.list:
-        print("\n".join(f"{case.name:16} {case.title}" for case in CASES.values()))
+        print("\n".join(f"{case.name:16} {case.takes:8} {case.title}" for case in CASES.values()))
         return 0
     unknown = [name for name in args.names if name not in CASES]
     if unknown or args.keep and args.names:
         parser.error(f"no case '{unknown[0]}'; --list names them" if unknown else "--keep is for all cases")
     begin, rows, bad = time.monotonic(), [], 0
     with concurrent.futures.ProcessPoolExecutor(args.jobs) as pool:
-        names = args.names or list(CASES)
+        takes = MINUTES if args.minutes else SECONDS
+        names = args.names or [case.name for case in CASES.values() if case.takes == takes]
         for name, (its, seconds) in zip(names, pool.map(measure, names)):
             rows += its
             bad += sum(not (r.holds() and r.same_at_both_cuts()) for r in its)
@@ -93,7 +100,7 @@ def main():
     else:
         print(f"\n{len(rows)} numbers of {len(names)} cases: {bad or 'none'} out of tolerance or other at another cut ({time.monotonic() - begin:.0f} s)")
     if args.keep:
-        keep(rows, args.commit)
+        keep(rows, takes, args.commit)
     return 1 if bad else 0
 
 

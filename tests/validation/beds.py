@@ -1,0 +1,127 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""Beds of grains, cases of minutes: Janssen's column and Beverloo's hopper. A bed forgets its round-off in no time, so that two cuts of a mesh agree as two
+fillings do."""
+
+import math
+import re
+import subprocess
+import sys
+
+import lmp
+import stl
+from suite import AT_MESHES, MINUTES, ROOT, TWO, Seen, case
+
+
+def cut(triangles, parts=12):
+    """Each triangle as so many slivers that meet in its first corner."""
+    made = []
+    for a, b, c in triangles:
+        points = [tuple(u + (w - u) * k / parts for u, w in zip(b, c)) for k in range(parts)] + [tuple(c)]
+        made += [(tuple(a), p, q) for p, q in zip(points, points[1:])]
+    return made
+
+
+# ---- Janssen ---------------------------------------------------------------------------------
+
+TUBE_RADIUS, FLATS = 5.0, 60
+
+# In diameters and masses of a grain; gravity is 1.
+COLUMN = lmp.head("-5.5 5.5 -5.5 5.5 -2 70") + """\
+lattice         sc 0.66
+region          fill cylinder z 0 0 4.4 0.6 {top} units box
+create_atoms    1 region fill
+variable        size atom 0.9+0.2*random(0,1,{seed})
+set             group all diameter v_size
+set             group all density 1.9098593171
+velocity        all create 0.2 {seed} loop geom
+pair_style      gran/hooke/history 2e4 NULL 50 NULL 0.5 0
+pair_coeff      * *
+neighbor        0.2 bin
+neigh_modify    delay 0 every 1 check yes
+timestep        5e-4
+fix             gravity all gravity 1.0 vector 0 0 -1
+fix             move all nve/sphere
+fix             wall all wall/lsdcd hooke/history 2e4 NULL 50 NULL 0.5 0 mesh tube.stl mesh floor.stl log brief
+fix_modify      wall mesh 1 names tube force_z
+fix_modify      wall mesh 2 names floor force_z
+variable        mass equal mass(all)
+variable        up equal vcm(all,z)
+# Steps in which means end are multiples of 24000.
+run             {settle}
+fix             mean all ave/time 1 4000 4000 v_tube_force_z v_floor_force_z
+variable        before equal $(v_up)
+run             4000
+compute         top all reduce max z
+print           "rest $(v_mass:%.15g) $(f_mean[1]:%.15g) $(f_mean[2]:%.15g) $((v_up-v_before)/(4000*dt)*v_mass:%.15g)"
+unfix           mean
+fix_modify      wall mesh 2 motion linear 0 0 -0.02
+fix             mean all ave/time 1 20000 24000 v_floor_force_z
+thermo_style    custom step ke c_top
+run             24000
+print           "moving $(f_mean:%.15g) $(c_top:%.15g)"
+"""
+
+
+def column(setting, top, settle, seed=7):
+    """The mass of a column; the forces on tube and floor at rest, and what the bed gains in momentum; the force on the floor as it sinks, and the bed's top."""
+    ring = [(TUBE_RADIUS * math.cos(2 * math.pi * k / FLATS), TUBE_RADIUS * math.sin(2 * math.pi * k / FLATS)) for k in range(FLATS)]
+    tube = [t for p, q in zip(ring, ring[1:] + ring[:1]) for t in stl.quad((*p, -2.0), (*q, -2.0), (*q, 70.0), (*p, 70.0))]
+    floor = [((0.0, 0.0, 0.0), (*p, 0.0), (*q, 0.0)) for p, q in zip(ring, ring[1:] + ring[:1])]
+    stl.write(setting.folder / "tube.stl", tube if setting.wall == TWO else cut(tube, 45))
+    stl.write(setting.folder / "floor.stl", floor if setting.wall == TWO else cut(floor))
+    said = lmp.run_well(COLUMN.format(top=top, settle=settle, seed=seed), setting.folder, timeout=3000)
+    rest, moving = (list(map(float, re.search(rf"^{word} (.*)", said, re.M)[1].split())) for word in ("rest", "moving"))
+    return (*rest, *moving)
+
+
+@case("janssen", "A column in a tube: weight, and Janssen's floor that sinks", AT_MESHES, MINUTES)
+def janssen(setting):
+    found = {}
+    for name, top, settle in (("low", 13.0, 44000), ("middle", 27.0, 44000), ("high", 46.0, 68000)):
+        mass, tube, floor, gained, load, _ = column(setting, top, settle)
+        found[name] = mass, load
+        yield Seen(f"{name} column at rest: weight that tube and floor carry, over all", "1", -(tube + floor) / (mass + gained), 1.0, "balance of forces, with the momentum that the bed gains", 2e-6,
+                   "the mean begins and ends half a step off, with a load that differs by 1 % or so: 0.01/(2 4000)")
+    # One number for three loads, by least squares over a range that ends far beyond both ways.
+    def misfit(saturated):
+        return sum((-load / (saturated * (1 - math.exp(-mass / saturated))) - 1) ** 2 for mass, load in found.values())
+    saturated = min((200 + 2 * k for k in range(900)), key=misfit)
+    for name, (mass, load) in found.items():
+        yield Seen(f"{name} column, floor sinking: its load over Janssen's", "1", -load / (saturated * (1 - math.exp(-mass / saturated))), 1.0,
+                   "Janssen's law, M8 (1 - exp(-M/M8)), with one M8 for the three columns", 0.1, "the scatter of fillings, some 5 % each")
+
+
+# ---- Beverloo --------------------------------------------------------------------------------
+
+@case("beverloo", "Flow out of a bin through four outlets (Beverloo 1961)", AT_MESHES, MINUTES)
+def beverloo(setting):
+    place = ROOT / "examples" / "hopper"
+    flows = {}
+    for outlet in (4, 5, 6, 7):    # the bin is 16 wide: out of 8, half of that, 8 % more runs than by the line of these
+        subprocess.run([sys.executable, place / "make_hopper.py", "--outlet", str(outlet), "--out", setting.folder], check=True, stdout=subprocess.DEVNULL)
+        if setting.wall != TWO:
+            for name in ("hopper.stl", "gate.stl"):
+                stl.write(setting.folder / name, cut(stl.read(setting.folder / name)))
+        said = lmp.run_well((place / "in.hopper").read_text(), setting.folder, timeout=3000, outlet=outlet, dir=setting.folder, png=0, measure=10000)
+        words = re.search(r"^hopper outlet .*", said, re.M)[0].split()
+        row = {a: float(b) for a, b in zip(words[1::2], words[2::2])}
+        flows[outlet] = row["flow"] / row["bulk_density"]
+        yield Seen(f"outlet {outlet}: weight that bin and gate carry, over all", "1", row["borne"], 1.0, "balance of forces", 1e-4, "what the bed still gains in speed, in round-off of the mean")
+        yield Seen(f"outlet {outlet}: mass in the bin and counted out, over all", "1", row["kept"], 1.0, "no grain is lost", 1e-9, "digits of the script")
+    slope, zero, left = line(list(flows), [f ** 0.4 for f in flows.values()])
+    of = "Beverloo's law, C rho sqrt(g) (D - k d)^(5/2)"
+    yield Seen("flow^(2/5) over the outlet: what a line leaves, 1 - r^2", "1", left, 0.0, of, 1.4e-2,
+               "70 to 400 grains are counted, 1/sqrt(N) of which is 5 to 12 %: 0.4 of that, 3 % in the mean, over roots that spread by 25 % of their mean", True)
+    yield Seen("k of the line", "1", zero, 1.4, of, 0.4, "the scatter of a flow at one end, 12 %, is 5 % of the root and moves the line's zero by 0.3; k depends on the grains", True)
+    exponent, _, _ = line([math.log(outlet - 1.4) for outlet in flows], [math.log(f) for f in flows.values()])
+    yield Seen("exponent with k = 1.4", "1", exponent, 2.5, of, 0.2, "the scatter of a flow at one end, 12 %, over ln(5.6/2.6) = 0.77", True)
+
+
+def line(x, y):
+    """Slope and zero of the line of least squares, and what it leaves of the squares, 1 - r^2."""
+    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+    sxy = sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y))
+    sxx, syy = (sum((a - mean) ** 2 for a in u) for u, mean in ((x, mean_x), (y, mean_y)))
+    return sxy / sxx, mean_x - mean_y * sxx / sxy, 1 - sxy ** 2 / (sxx * syy)
