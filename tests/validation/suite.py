@@ -172,7 +172,11 @@ class Setting:
 
     def pairs(self, law, cut):
         """Lines with a law between grains, LAMMPS's own or ours."""
-        return (f"pair_style granular{'/lsdcd' if self.is_mesh else ''}\npair_coeff * * {law}\n" if law else f"pair_style zero {cut!r}\npair_coeff * *\n")
+        if not law:
+            return f"pair_style zero {cut!r}\npair_coeff * *\n"
+        if self.is_mesh:
+            return f"pair_style granular/lsdcd\npair_coeff * * {law}\n"
+        return lmp.flat_walls("pair_style granular") + f"pair_coeff * * {law}\n"    # with -sf kk granular is ours
 
 
 # ---- scripts with grains -----------------------------------------------------------------
