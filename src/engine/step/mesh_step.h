@@ -165,8 +165,7 @@ LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const MarksO
             job.friction_heat, book.rows[EnergyRow::slider] - job.energy[k][EnergyRow::slider],
             mesh.settings.dt);
         job.heat_flow[sphere.i] += heat;
-        if (job.result.n_contacts[k] > 0)
-          job.heat[k] += heat;    // else nothing is told of the slot
+        if (job.is_booked[k]) job.heat[k] += heat;    // the sphere has contacts in this step, too
       }
     job.energy[k] = book.rows;
     job.is_booked[k] = 1;
@@ -219,8 +218,9 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
   if constexpr (Law::kEnergy)
     for (int m = 0; m < sphere.n_meshes(); m++) job.is_booked[begin + m] = 0;
   if (set.n == 0) {
-    put_no_contact(job, begin, i);
     if constexpr (Law::kEnergy) close_books<Law>(job, sphere, marks);
+    // After the books, which read the number of springs of the last step that it sets to 0.
+    put_no_contact(job, begin, i);
     return;
   }
   int first = 0;    // place in the pool of contacts; reserve_places() sets it and the sink
