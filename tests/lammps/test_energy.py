@@ -487,17 +487,16 @@ def test_springs_that_only_make_up_for_a_dashpot(folder):
 
 @lmp.of_host
 def test_heat_of_a_slider(folder):
-    """What friction heats is never below 0, though a ball that touches by 1e-17 has a spring of no stiffness."""
+    """A ball that touches by 1e-17 becomes warmer by what its slider loses, about 0.13 of 1, though its spring has no stiffness in that step."""
     text = SPHERE.replace("create_atoms", "fix heats all property/atom temperature heatflow ghost yes\ncreate_atoms").replace("mass 1\n", "mass 1 temperature 1\n")
     text = text.replace("floor.stl energy", "floor.stl temperature 1 energy friction_heat 1\nfix flow all heat/flow constant 1\n"
                         "compute T all property/atom temperature\ncompute hot all reduce max c_T")
     text = text.replace("custom step", "custom step c_hot")
     for dt in (5e-5, 2.5e-5, 1.25e-5):
         hot = [row[1] for row in lmp.read_thermo(lmp.run_well(text.format(
-            x="0.3 0.2 0.501", v="1 0 -1", move="fix move all nve/sphere", dt=repr(dt), columns=" ".join(COLUMNS), run=f"run {round(0.08 / dt)} every 10 NULL",
+            x="0.3 0.2 0.501", v="1 0 -1", move="fix move all nve/sphere", dt=repr(dt), columns=" ".join(COLUMNS), run=f"run {round(0.08 / dt)}",
             law="granular hertz 1e5 5 damping velocity tangential mindlin 1e5 1 0.2 heat area 0"), folder))]
-        fact(f"{dt}: it has become warmer", 1.01 < hot[-1] < 2, hot[-1])
-        fact(f"{dt}: and never colder", all(a <= b for a, b in zip(hot, hot[1:])), hot)
+        fact(f"{dt}: it has become warmer", 1.1 < hot[-1] < 1.2, hot[-1])
 
 
 # ---- bodies, servos, several meshes ------------------------------------------------------

@@ -440,12 +440,6 @@ LSDCD_FN void evaluate(const GridView &grid, const Law &law, const ForceSettings
     if (!settings.update) at.memory = at.before;
 }
 
-// Returns the heat flow (power) by a loss of the slider. It is never below 0, though the spring of a law may give back some of a loss.
-LSDCD_FN Real heat_of_friction(Real share, Real lost, Real dt)
-{
-  return lost > 0 ? share * lost / dt : 0;
-}
-
 // Adds a contact to the energy balance of its mesh, and what its friction heats. `place`: its number among the contacts with this mesh
 // that are stored, from 0; the arrays of the sink begin with these.
 template <class Law, class Springs, class Set, class Sink>
@@ -467,8 +461,7 @@ LSDCD_FN void book_contact(const GridView &grid, const Law &law, const ForceSett
            sink.extra + place * n_stored(law));
   if constexpr (Law::kHeat)
     if (law.has_heat() && settings.update && sink.friction_heat > 0)
-      *sink.heat += heat_of_friction(sink.friction_heat,
-                                     sink.book->rows[EnergyRow::slider] - slid_before, c.dt);
+      *sink.heat += sink.friction_heat * (sink.book->rows[EnergyRow::slider] - slid_before) / c.dt;
 }
 
 // Rows of the energy balance before a contact was booked, in laws that write what each contact loses.

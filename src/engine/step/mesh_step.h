@@ -161,9 +161,9 @@ LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const MarksO
       book.close(mesh.law, mesh.grid.wall, mesh.settings, state, marks, job.records);
     if constexpr (Law::kHeat)
       if (mesh.law.has_heat() && mesh.settings.update && job.friction_heat > 0) {
-        const Real heat = heat_of_friction(
-            job.friction_heat, book.rows[EnergyRow::slider] - job.energy[k][EnergyRow::slider],
-            mesh.settings.dt);
+        const Real heat = job.friction_heat *
+                          (book.rows[EnergyRow::slider] - job.energy[k][EnergyRow::slider]) /
+                          mesh.settings.dt;
         job.heat_flow[sphere.i] += heat;
         if (job.is_booked[k]) job.heat[k] += heat;    // the sphere has contacts in this step, too
       }
