@@ -255,23 +255,23 @@ const char *keyword_of(OutputPart part)
 {
   switch (part) {
     case OutputPart::servo:
-      return "'servo'";
+      return "*servo*";
     case OutputPart::body:
-      return "'body'";
+      return "*body*";
     case OutputPart::wear:
-      return "'wear ... deform'";
+      return "*wear ... deform*";
     case OutputPart::nodes:
-      return "'nodes'";
+      return "*nodes*";
     case OutputPart::means:
-      return "'average'";
+      return "*average*";
     case OutputPart::motion:
-      return "'motion'";
+      return "*motion*";
     case OutputPart::energy:
-      return "'energy'";
+      return "*energy*";
     case OutputPart::impacts:
-      return "'impacts'";
+      return "*impacts*";
     case OutputPart::wear_energy:
-      return "'energy' with 'wear ... deform'";
+      return "*energy* with *wear ... deform*";
     default:
       return "";
   }
@@ -582,8 +582,11 @@ std::string why_no_output(const WallSpec &wall, const std::string &name)
 {
   int d;
   const std::string none = "there is no number '" + name + "': ";
-  if (const WallOutput *const output = row_of(name, d))
-    return none + "the wall needs " + keyword_of(output->part) + " for it";
+  if (const WallOutput *const output = row_of(name, d)) {
+    std::string keyword = keyword_of(output->part);
+    std::replace(keyword.begin(), keyword.end(), '*', '\'');    // as messages have keywords
+    return none + "the wall needs " + keyword + " for it";
+  }
   std::vector<std::string> names;
   for (const NamedElement &one : named_outputs(wall)) names.push_back(one.name);
   return none + nearest_or_all(name, names);
