@@ -3,7 +3,7 @@
 
 # Documents and examples; and packages for Debian, which `./run package` makes. All else is installed
 # by the folder that it lies in.
-install(FILES README.md CHANGELOG.md CITATION.cff LICENSE CONTRIBUTING.md RELEASING.md
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE CONTRIBUTING.md RELEASING.md ROADMAP.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT data)
 install(FILES .github/SUPPORT.md .github/SECURITY.md .github/CODE_OF_CONDUCT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/.github COMPONENT data)
 install(DIRECTORY LICENSES DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT data)
