@@ -21,6 +21,7 @@
 #   lmp, liblammps.so.0      the program; both resolve their libraries from the folder itself
 #   src/                     headers of LAMMPS, those of its package KOKKOS in src/KOKKOS
 #   kokkos/                  include/ and lib/ of Kokkos
+#   unittest/granular/tests  without a KIND: LAMMPS's own tests of granular styles, which tests/validation/lammps_yaml.py reads
 #   host.cmake               what a plugin for it is compiled with, as CMake variables: its KIND, its
 #                            Kokkos ("" without), includes, definitions, least C++ standard; with another MPI
 #                            the folders of mpi.h
@@ -43,6 +44,7 @@ kokkos_source=kokkos/kokkos_5.0.2.orig.tar.gz
 kokkos_sha256=188817bb452ca805ee8701f1c5adbbb4fb83dc8d1c50624566a18a719ba0fa5e
 standard=20
 defines="LMP_KOKKOS LMP_KOKKOS_LAYOUT_LEGACY"
+their_tests=unittest/granular/tests
 kind=${1:-} packed="" mpi="" backend=SERIAL precision=double build_mpi=on mpicxx=mpicxx mpi_options=()
 case $kind in
   "") ;;
@@ -145,11 +147,20 @@ kokkos_sources() {
 lammps_sources() {
   if [ -n "${LSDCD_HOST_SOURCES:-}" ]; then
     tar -xf "$LSDCD_HOST_SOURCES" -C "$work" cmake src lib LICENSE || die "cannot unpack $LSDCD_HOST_SOURCES"
+    tar -xf "$LSDCD_HOST_SOURCES" -C "$work" $their_tests 2>/dev/null || true    # an older archive has none
     return 0
   fi
   fetch "$source" "$sha256" || skip "$why"
-  tar -xf "$work/${source##*/}" -C "$work" cmake src lib LICENSE || die "cannot unpack $source"
+  tar -xf "$work/${source##*/}" -C "$work" cmake src lib LICENSE $their_tests || die "cannot unpack $source"
   rm "$work/${source##*/}"
+}
+
+# Keeps LAMMPS's own tests of granular styles beside the host, where the sources have them.
+keep_their_tests() {
+  if [ -n "$kind" ] || [ ! -d "$work/$their_tests" ]; then return; fi
+  rm -rf "${folder:?}/$their_tests"
+  mkdir -p "$folder/${their_tests%/*}"
+  cp -r "$work/$their_tests" "$folder/$their_tests"
 }
 
 # pack FILE: for LSDCD_HOST_SOURCES, without those folders of sources that take most room and that no kind of build reads.
@@ -163,7 +174,7 @@ pack() {
     touch "$work/kokkos/$folder/CMakeLists.txt"
   done
   tar -cJf "$1" -C "$work" --exclude=lib/{gpu,colvars,lepton} --exclude=src/{OPENMP,INTEL,GPU} --exclude=kokkos/containers/unit_tests \
-    --exclude=kokkos/core/{unit_test,perf_test} kokkos cmake src lib LICENSE
+    --exclude=kokkos/core/{unit_test,perf_test} kokkos cmake src lib LICENSE $their_tests
   echo "$1"
 }
 
@@ -240,11 +251,16 @@ if [ -n "$kokkos" ]; then
 fi
 stamp="3 $version $sha256 kokkos=$kokkos $flags ${options[*]} $tools$ours"
 if [ -x "$folder/lmp" ] && [ "$(cat "$folder/stamp" 2>/dev/null)" = "$stamp" ]; then
+  if [ -z "$kind" ] && [ ! -d "$folder/$their_tests" ]; then    # it was built before these were kept
+    (lammps_sources) || echo "without LAMMPS's own tests"
+    keep_their_tests
+  fi
   echo "$folder"
   exit 0
 fi
 rm -rf "$folder"/{stamp,host.cmake,src,lmp} "$folder"/liblammps.so*
 lammps_sources
+keep_their_tests
 choose_compilers
 # Styles of molecules, thermostats and the like take half of the time, and no script needs them.
 find "$work/src/KOKKOS" -name 'pair_*_kokkos.*' ! -name 'pair_gran_*' ! -name 'pair_hybrid*' -delete
