@@ -549,6 +549,29 @@ def validation_liggghts(rows):
     return table(rows, ["case", "quantity", "expected", "LSDCD", "LIGGGHTS 3.8"], cells)
 
 
+def validation_lammps(rows):
+    """LAMMPS's own tests with LAMMPS's styles and with ours, and under the table why those that do not pass do not."""
+    notes = {}
+
+    def cells(r):
+        passes = r["passes"]
+        if r["why"]:
+            passes += f" ({notes.setdefault(r['why'], chr(ord('a') + len(notes)))})"
+        form = [r["form"].replace("_", " "), r["off_form"], r["form_tolerance"]]
+        return [r["test"], r["ours"], r["LAMMPS"], r["two"], r["slivers"], r["tolerance"], passes, *form]
+
+    made = table(rows, ["test", "ours in it", "LAMMPS", "two", "slivers", "tolerance", "passes", "closed form", "off by", "of"], cells)
+    return made + "\n\n" + "\n".join(f"- ({letter}) {why[0].upper()}{why[1:]}." for why, letter in notes.items())
+
+
+def validation_lammps_in_short(rows):
+    """The page's sentence on LAMMPS's own tests."""
+    count = {word: sum(r["passes"] == word for r in rows) for word in dict.fromkeys(r["passes"] for r in rows)}
+    ours = [r for r in rows if r["ours"]]
+    return (f"Of {len(rows)} files {len(ours)} have a contact for our styles. With these {count['yes']} pass as they are, {count['but for rounding']} but for numbers as small as a "
+            f"rounding, {count['its closed form']} by its closed form alone, and {sum(r['nudged'] != '' for r in rows)} does not pass")
+
+
 def validation_in_short(rows):
     """The page's sentence on what holds."""
     cases, meshes = {r["case"] for r in rows}, [r for r in rows if r["two"] and r["slivers"]]
@@ -581,6 +604,8 @@ def tables():
                      "figures": paper_figures(study_cpu, study_cuda), "formula-5": paper_formula5(study_cpu)},
         "validation.md": {"validation-short": validation_in_short(validation_rows()), "validation": validation_cases(validation_rows()),
                           "validation-minutes": validation_cases(validation_rows("validation_minutes_cpu.tsv")),
+                          "validation-lammps-short": validation_lammps_in_short(validation_rows("validation_lammps_yaml.tsv")),
+                          "validation-lammps": validation_lammps(validation_rows("validation_lammps_yaml.tsv")),
                           "validation-liggghts": validation_liggghts(validation_rows("validation_liggghts.tsv"))},
         "../README.md": {"two-triangles": two_triangles(study_cuda, vessel["cpu"]), "accuracy-time": time_in_short(vessel),
                          "validation-promise": validation_promise(validation_rows())},

@@ -52,7 +52,7 @@ WITHOUT_MOLECULE = ("atom_style hybrid sphere molecular\n", "atom_style sphere\n
 # ---- files -------------------------------------------------------------------------------
 
 def read_yaml(path):
-    """{key: text} of one of these files: a key stands at the begin of a line, and the lines of a block behind it are indented."""
+    """Reads one of these files as {key: text}: a key begins a line, and the lines of a block behind it are indented."""
     keys, block = {}, None
     for line in path.read_text(encoding="utf-8").splitlines():
         if line.startswith((" ", "\t")) and block is not None:
@@ -66,7 +66,7 @@ def read_yaml(path):
 
 @dataclasses.dataclass
 class Test:
-    """What a file has. `seen`: of each run, {atom: {x, v, torque or omega: three numbers}}."""
+    """What a file has. `seen`: of each run, {atom: {column: number}}."""
     name: str
     keys: dict
     variables: dict
