@@ -19,14 +19,20 @@ class Browser:
     """What both have. `script` of run() is an expression."""
 
     def wait_for(self, expression, what):
+        """The expression's value, once it is true."""
+        return self.once(expression, bool, what)
+
+    def once(self, expression, is_it=lambda value: True, what="an answer"):
+        """The expression's value, once it has one of this kind. A page that is being loaded has none."""
         end = time.time() + LONG
         while time.time() < end:
             try:
                 value = self.run(expression)
             except RuntimeError:    # the page is being loaded
-                value = None
-            if value:
-                return value
+                pass
+            else:
+                if is_it(value):
+                    return value
             time.sleep(0.1)
         raise AssertionError(f"{what} has not come in {LONG} s")
 

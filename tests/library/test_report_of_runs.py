@@ -130,7 +130,7 @@ SET = "(e => {{ e.{what} = {value}; e.dispatchEvent(new Event('{event}')); retur
 
 
 def set_input(browser, name, value, event="input", what="value"):
-    browser.run(SET.format(name=name, value=value, event=event, what=what))
+    browser.once(SET.format(name=name, value=value, event=event, what=what))
 
 
 @pytest.mark.parametrize("kind", BROWSERS)
@@ -201,13 +201,13 @@ def test_live_page_in_a_browser(folder, kind):
         browser.open(at / "report.html")
         if not browser.run("document.getElementById('view') !== null"):
             pytest.skip(f"{kind.__name__} has no WebGL 2 here")
-        first = browser.run("document.getElementById('state').textContent").split(" of ")[0]
+        first = browser.once("document.getElementById('state').textContent").split(" of ")[0]
         set_input(browser, "field", "'impact_energy'", "change")
         as_it_was(folder / "mill", at, 0.66)
         moved = f"document.body.dataset.ready && !document.getElementById('state').textContent.startsWith({first!r})"
         browser.wait_for(moved, "the next page")
-        fact("the chosen field stays", browser.run("document.getElementById('field').value") == "impact_energy")
-        fact("the slider is at the last frame", browser.run("(t => t.value === t.max)(document.getElementById('time'))"))
+        fact("the chosen field stays", browser.once("document.getElementById('field').value") == "impact_energy")
+        fact("the slider is at the last frame", browser.once("(t => t.value === t.max)(document.getElementById('time'))"))
         as_it_was(folder / "mill", at, 1)
         browser.wait_for("document.body.dataset.ready && document.getElementById('state').textContent.startsWith('finished')", "the end of the run")
         browser.run("window.stays = true")

@@ -42,6 +42,7 @@ void for_inputs(MeshSpec &mesh, SurfaceMotion &surface, const Visit &visit)
 MeshMotion::MeshMotion(Host &host, WallSpec &wall, int mesh, const Step &now) :
     host_(host), wall_(wall), mesh_(mesh)
 {
+  surface_ = surface_now_ = spec().surface;
   read_tables(spec().motion.terms());
   begin(now);
 }
@@ -81,8 +82,6 @@ void MeshMotion::begin(const Step &now)
 {
   clock_ = {0, now.number, now.number, now.dt};
   last_step_ = 0;
-  surface_ = surface_now_ = spec().surface;
-  has_values_ = false;
   place();
 }
 

@@ -80,7 +80,7 @@ class MeshMotion {
   bool has_before_ = false;
   Real last_step_ = 0;                     // how long it was; 0: none has led to this place
   SurfaceMotion surface_, surface_now_;    // half a step ago, and now
-  bool has_values_ = false;                // of inputs, since begin()
+  bool has_values_ = false;                // of inputs, from a step or a saved state
 };
 
 }    // namespace lsdcd
