@@ -485,6 +485,19 @@ def test_springs_that_only_make_up_for_a_dashpot(folder):
             at_most(f"{law}: {name} at the two smallest timesteps", abs(means[-1] - means[-2]), 1 / 300)
 
 
+def test_such_a_spring_in_a_restart(folder):
+    """A contact whose spring is no store of energy is saved as that: rows go on to the last bit."""
+    law = "granular hertz 1e5 5 damping velocity tangential mindlin 1e5 1 0.2"
+    words = dict(law=law, dt="1e-4", columns=" ".join(COLUMNS))
+    begin = SPHERE.format(x="0.3 0.2 0.50035", v="1 0 -1", move="fix move all nve/sphere", run="run 6\nwrite_restart half.restart\nrun 0\nrun 300", **words)
+    whole = row_of(lmp.run_well(begin, folder))
+    rest = "newton off\nread_restart half.restart\ncomm_modify vel yes\npair_style zero 1.2\npair_coeff * *\nfix move all nve/sphere\n" + \
+        f"fix wall all wall/lsdcd {law} mesh floor.stl energy\n" + TELL.format(run="run 300", dt="1e-4", columns=words["columns"])
+    again = row_of(lmp.run_well(rest, folder))
+    fact("the slider has lost", whole["slider"] > 0.1, whole)
+    fact("rows are the same", whole == again, {k: (whole[k], again[k]) for k in whole if whole[k] != again[k]})
+
+
 @lmp.of_host
 def test_heat_of_a_slider(folder):
     """A ball that touches by 1e-17 becomes warmer by what its slider loses, about 0.13 of 1, though its spring has no stiffness in that step."""
