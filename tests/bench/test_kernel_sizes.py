@@ -32,7 +32,8 @@ REGISTERS = 0x042f
 # has impacts.
 KINDS = {"ELb1ELb1ELb1ELb0ELb0EEE": " at nodes that move", "ELb1ELb1ELb0ELb1ELb0EEE": " with books of energy",
          "ELb1ELb1ELb0ELb1ELb1EEE": " with energy of triangles",
-         "ELb1ELb1ELb1ELb1ELb0EEE": " with books of energy at nodes that move", "ELb1ELb1ELb0ELb0ELb1EEE": " with impacts"}
+         "ELb1ELb1ELb1ELb1ELb0EEE": " with books of energy at nodes that move", "ELb1ELb1ELb0ELb0ELb1EEE": " with impacts",
+         "ELb1ELb1ELb1ELb1ELb1EEE": " with energy of triangles at nodes that move", "ELb1ELb1ELb1ELb0ELb1EEE": " with impacts at nodes that move"}
 MOST_STACK = 1024    # bytes a thread; a driver sets more aside for every thread that a GPU can hold
 
 

@@ -251,12 +251,15 @@ def refused(name, text, folder, *says, **more):
     fact(f"{name}: refused", done.returncode != 0 and all(words in said for words in says), said[-400:])
 
 
-def largest_difference(a, b):
-    """Of two dumps of the same steps and atoms, relative to the largest value of each column."""
+def largest_difference(a, b, sizes=()):
+    """Of two dumps of the same steps and atoms, relative to the largest value of each column. `sizes`: of columns whose values may
+    cancel to what rounding leaves, the size of what cancels, by place in a row."""
     if a.keys() != b.keys():
         raise AssertionError(f"steps differ: {sorted(a)[:3]}... and {sorted(b)[:3]}...")
     columns = len(next(iter(next(iter(a.values())).values())))
     size, apart = [0.0] * columns, [0.0] * columns
+    for column, value in dict(sizes).items():
+        size[column] = value
     for step in a:
         if a[step].keys() != b[step].keys():
             raise AssertionError(f"atoms differ at step {step}")
