@@ -131,10 +131,11 @@ def draw_accuracy(rows_by_device):
             high.plot([], [], line, marker=STYLES[device]["marker"], color=colour, markersize=9, fillstyle=fill, label=name)
             x, spread = bars(exact)
             low.errorbar(x, 0, xerr=spread, marker="*", color="black", markersize=19, fillstyle=fill, linewidth=1)
-            # Between the two stars there is room for both names where they are far apart.
+            # Between the two stars there is room for both names, one higher than the other, where they are far apart.
             other = float(exact[f"{'search' if way == 'step' else 'step'}_ns"])
-            side = (1 if x < other else -1) * (1 if max(x, other) > 3 * min(x, other) else -1)
-            low.annotate(f"default, {way}", (x, 0), (13 * side, -16), textcoords="offset points", fontsize=FONT - 1, ha="left" if side > 0 else "right")
+            between = max(x, other) > 3 * min(x, other)
+            side = 1 if (x < other) == between else -1
+            low.annotate(f"default, {way}", (x, 0), (13 * side, 5 if between and way == "step" else -16), textcoords="offset points", fontsize=FONT - 1, ha="left" if side > 0 else "right")
         every = [float(r[f"{way}_{which}ns"]) for r in its for way in ("search", "step") for which in ("", "most_")]
         high.set(xscale="log", yscale="log", ylim=(1e-3, 1.5), xlim=(min(every) / 1.3, 2 * max(every)))
         high.legend(loc="lower left", fontsize=FONT - 2)
