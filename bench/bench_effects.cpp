@@ -3,12 +3,13 @@
 
 // The cost of every effect of a wall, of those that pairs of grains have, or of bodies and their coats: rows for doc/effects.md, as CSV.
 //
-// Spheres lie on a floor of 20 000 triangles, each with one contact. For effects a step is the engine's. For bodies it is that of the
-// whole wall, whose floor is at rest, moves, or is a body on a slider, so heavy that it stays; points of a coat are those of a heavy
-// cube on a floor and above it. Cases take turns, so that what disturbs the machine disturbs all alike; the least of the times is
-// nearest to the truth, since disturbances only add.
+// Spheres lie on a floor of 20 000 triangles, each with one contact. For effects a step is the engine's; on a GPU the spheres are in its
+// memory, as those of LAMMPS with Kokkos are. For bodies a step is that of the whole wall, whose floor is at rest, moves, or is a body on
+// a slider, so heavy that it stays; points of a coat are those of a heavy cube on a floor and above it. Cases take turns, so that what
+// disturbs the machine disturbs all alike; the least of the times is nearest to the truth, since disturbances only add.
 #include "bench.h"
 
+#include "backend/cuda_available.h"
 #include "base/input_error.h"
 #include "effects/effects.h"
 #include "grid/flat_grid.h"
@@ -79,6 +80,8 @@ double cost_over(const std::vector<Case> &cases, const Case &c)
 // ---- effects --------------------------------------------------------------------------------------
 
 constexpr Real kHalf = 50;
+// So many steps of a round on a GPU that the wait at its end counts for nothing.
+constexpr int kStepsInPlace = 100;
 
 // Spheres that touch the floor, in the order of bins as LAMMPS sorts them.
 struct Bed {
@@ -108,17 +111,42 @@ struct Bed {
   SphereArrays arrays;
 };
 
+// Does the steps of a round for spheres on a GPU, with what a wall does there in each: it sums the forces on a body, and adds up loads,
+// energy and impacts by triangle. No sphere and no contact comes to the CPU; of results only the sums of the energy balance do, for which
+// the engine waits in each step. At the end the round waits for the GPU.
+void steps_in_place(WallEngine &engine, const EngineSettings &settings, const Spheres &spheres,
+                    StepSettings step, const FeatureCounts &counts)
+{
+  step.contacts = false;
+  step.totals = settings.bodies;
+  for (int k = 0; k < kStepsInPlace; k++) {
+    engine.step(spheres, step);
+    if (settings.contacts) engine.loads()->add(0, counts, step.dt);
+    if (settings.energy_places || settings.impact_speed > 0)
+      engine.energies()->add(0, counts, step.dt);
+  }
+  engine.read_diagnostics();
+}
+
 // Fields are separated by semicolons: words and devices have commas in them.
 void measure_effects(Device device, int n_spheres, int repeats, const char *commit)
 {
+  const bool in_place = device == Device::cuda;
+  std::string why;
+  if (in_place && !cuda_available(&why)) throw InputError("device cuda: " + why);
   const std::vector<EffectCase> effects = effect_cases();
   StepGridSettings settings;
   settings.cutoff = kRadius;
+  settings.for_gpu = in_place;
   for (const EffectCase &c : effects)
     settings.cutoff = std::max(settings.cutoff, cutoff_of(c.settings.law(), kRadius));
-  const FlatOf flat(build_grid(weld(floor_mesh(100, kHalf), -1), settings));
+  const WeldedMesh mesh = weld(floor_mesh(100, kHalf), -1);
+  const FeatureCounts counts = {mesh.faces.size(), mesh.edges.size(), mesh.vertices.size()};
+  const FlatOf flat(build_grid(mesh, settings, in_place));
 
   Bed bed(n_spheres);
+  SphereArraysOn there(in_place);
+  const Spheres spheres = in_place ? there.put(bed.arrays) : bed.spheres();
   StepSettings step;
   step.dt = 1e-7;
   std::vector<std::unique_ptr<WallEngine>> engines;
@@ -126,25 +154,35 @@ void measure_effects(Device device, int n_spheres, int repeats, const char *comm
   for (const EffectCase &c : effects) {
     EngineSettings e = c.settings;
     e.device = device;
-    engines.push_back(make_engine(e));
+    engines.push_back(in_place ? make_cuda_engine_in_place(e, 0, nullptr) : make_engine(e));
     WallEngine *engine = engines.back().get();
     engine->set_grid(flat.view());
-    engine->choose(bed.spheres(), 0);
-    cases.push_back({c.name, c.words, c.over, 1, [=, &bed] { engine->step(bed.spheres(), step); }});
+    engine->choose(spheres, 0);
+    cases.push_back({c.name, c.words, c.over, 1, [=] {
+                       if (in_place)
+                         steps_in_place(*engine, e, spheres, step, counts);
+                       else
+                         engine->step(spheres, step);
+                     }});
   }
-  take_turns(cases, repeats, engines[0]->backend().compare(0, 3, "CPU") == 0);
-  for (std::size_t i = 0; i < cases.size(); i++)
-    cases[i].each = static_cast<int>(engines[i]->results().totals().contacts);
+  take_turns(cases, repeats, !in_place);
+  const int steps = in_place ? kStepsInPlace : 1, digits = in_place ? 4 : 2;
+  std::vector<int> contacts;
+  for (std::size_t i = 0; i < cases.size(); i++) {
+    contacts.push_back(static_cast<int>(engines[i]->results().totals().contacts));
+    cases[i].each = contacts[i] * steps;
+  }
 
   std::printf("name;words;over;contacts;repeats;median_ns;min_ns;max_ns;over_ns;bytes_per_atom;"
               "bytes_per_contact;engine_bytes;device;compiler;commit\n");
   for (std::size_t i = 0; i < cases.size(); i++) {
     const Case &c = cases[i];
     const EngineSettings &s = effects[i].settings;
-    std::printf("%s;%s;%s;%d;%d;%.2f;%.2f;%.2f;%.2f;%d;%d;%zu;%s;%s;%s\n", c.name.c_str(),
-                c.words.c_str(), c.over.c_str(), c.each, repeats, c.ns[c.ns.size() / 2] / c.each,
-                c.least(), c.ns.back() / c.each, cost_over(cases, c), bytes_per_atom(s),
-                bytes_per_contact(s), engines[i]->bytes(), engines[i]->backend().c_str(),
+    std::printf("%s;%s;%s;%d;%d;%.*f;%.*f;%.*f;%.*f;%d;%d;%zu;%s%s;%s;%s\n", c.name.c_str(),
+                c.words.c_str(), c.over.c_str(), contacts[i], repeats, digits,
+                c.ns[c.ns.size() / 2] / c.each, digits, c.least(), digits, c.ns.back() / c.each,
+                digits, cost_over(cases, c), bytes_per_atom(s), bytes_per_contact(s),
+                engines[i]->bytes(), engines[i]->backend().c_str(), in_place ? ", in place" : "",
                 compiler(), commit);
   }
 }

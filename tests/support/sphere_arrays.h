@@ -78,15 +78,16 @@ struct SphereArrays {
   }
 };
 
-// The same where an engine computes, without heat.
+// The same where an engine computes.
 class SphereArraysOn {
  public:
   explicit SphereArraysOn(bool cuda) :
-      x_(cuda), v_(cuda), omega_(cuda), radius_(cuda), mass_(cuda), force_(cuda), torque_(cuda)
+      x_(cuda), v_(cuda), omega_(cuda), radius_(cuda), mass_(cuda), force_(cuda), torque_(cuda),
+      temperature_(cuda), heat_flow_(cuda)
   {
   }
 
-  // Copies all but forces and torques, which become zero. Borrowed until the next call.
+  // Copies all but forces, torques and heat flows, which become zero. Borrowed until the next call.
   Spheres put(const SphereArrays &from)
   {
     const std::vector<Real> none(from.x.size(), 0);
@@ -99,6 +100,8 @@ class SphereArraysOn {
     s.mass = mass_.put(from.mass);
     s.force = force_.put(none);
     s.torque = torque_.put(none);
+    if (!from.temperature.empty()) s.temperature = temperature_.put(from.temperature);
+    if (!from.heat_flow.empty()) s.heat_flow = heat_flow_.put(none.data(), from.heat_flow.size());
     return s;
   }
   void put_x(const std::vector<Real> &x) { x_.put(x); }
@@ -107,7 +110,7 @@ class SphereArraysOn {
   std::vector<Real> torque(int n) const { return torque_.get(3 * n); }
 
  private:
-  DeviceArray<Real> x_, v_, omega_, radius_, mass_, force_, torque_;
+  DeviceArray<Real> x_, v_, omega_, radius_, mass_, force_, torque_, temperature_, heat_flow_;
 };
 
 }    // namespace lsdcd
