@@ -12,6 +12,7 @@ ends with 1 if a page does not hold what the rows say. A table, or words with fi
 """
 import argparse
 import csv
+import math
 import pathlib
 import re
 import sys
@@ -209,11 +210,32 @@ def liggghts(rows):
 
 # ---- tables of effects.md ------------------------------------------------------------------
 
+def noise(rows):
+    """Differences up to this (ns) are noise: none is below 3, nor below what an effect seems to save, for it saves nothing."""
+    return max(3, math.ceil(-min(float(r["over_ns"]) for r in rows if r["over"])))
+
+
+def stands_out(rows, row):
+    """Whether each round with the effect took longer than each without."""
+    without = find(rows, name=row["over"]) if row and row["over"] else None
+    return bool(without) and float(row["min_ns"]) > float(without["max_ns"])
+
+
+def is_in_place(cuda):
+    """Whether the spheres were in the memory of the GPU."""
+    return cuda[0]["device"].endswith(", in place")
+
+
 def costs(cpu, cuda, pairs):
     first, on_gpu, of_pairs = cpu[0], cuda[0], pairs[0]
+    card = on_gpu["device"].replace("CUDA, ", "").replace(", in place", "")
+    how = (" of many steps, with the spheres in its memory: no sphere and no contact is copied. `energy` waits for its sums in each step; `each_contact` is without bringing "
+           "contacts to the CPU, which a run does in each step; `heat` is for hosts that have temperatures on a GPU, which LAMMPS has not"
+           if is_in_place(cuda) else ", with the copies to and from it")
     told = (f"The CPU's times are of {first['contacts']} contacts on one core, the least of {first['repeats']} rounds "
-            f"({first['compiler']}). The GPU's are of {on_gpu['contacts']} contacts on an "
-            f"{on_gpu['device'].replace('CUDA, ', '')}, the least of {on_gpu['repeats']}, with the copies to and from it. Those of pairs are of "
+            f"({first['compiler']}); differences below {noise(cpu)} ns are noise. The GPU's are of {on_gpu['contacts']} contacts on an "
+            f"{card}, the least and the largest of {on_gpu['repeats']} rounds{how}. Differences are of the least, and are in bold where each round "
+            f"with the effect took longer than each without. Those of pairs are of "
             f"{of_pairs['contacts']} contacts between grains on one core, the least of {of_pairs['repeats']}.")
 
     def ns(row):
@@ -222,6 +244,13 @@ def costs(cpu, cuda, pairs):
     def over(row):
         return f"{float(row['over_ns']):+.1f}" if row and row["over"] else ""
 
+    def ns_on_gpu(row):
+        return " to ".join(dict.fromkeys(short(row[most], 3) for most in ("min_ns", "max_ns"))) if row else ""
+
+    def over_on_gpu(row):
+        more = f"{float(row['over_ns']):+.{3 if is_in_place(cuda) else 1}f}" if row and row["over"] else ""
+        return f"**{more}**" if stands_out(cuda, row) else more
+
     def words(row):
         return f"`{row['words']}`" if row else ""
 
@@ -229,7 +258,7 @@ def costs(cpu, cuda, pairs):
         g = find(cuda, name=r["name"])
         without = re.sub(r"(,| \.\.\.).*`", "`", words(find(cpu, name=r["over"])))    # of several words the first
         pair = find(pairs, name=r["name"])
-        return [words(r), ns(r), over(r), ns(g), over(g), ns(pair), over(pair), without, r["bytes_per_contact"],
+        return [words(r), ns(r), over(r), ns_on_gpu(g), over_on_gpu(g), ns(pair), over(pair), without, r["bytes_per_contact"],
                 pair["bytes_per_pair"] if pair else ""]
 
     heads = ["turned on by", "CPU, ns", "more than without", "GPU, ns", "more than without", "pair, ns", "more than without",
@@ -593,11 +622,12 @@ def tables():
     kokkos_cpu, kokkos_cuda = (rows_of(f"kokkos_{device}.csv") for device in DEVICES)
     study_cpu, study_cuda = (rows_of(f"accuracy_{device}.csv") for device in DEVICES)
     vessel = tradeoff("vessel")
+    effects = [rows_of(f"effects_{device}.csv", ";") for device in DEVICES]
     return {
         "performance.md": {"hours": hours(kokkos_cpu, kokkos_cuda), "cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda)},
         "notes/performance.md": {"scale": scale(rows_of("scale_cuda.csv")), "liggghts": liggghts(rows_of("liggghts_cpu.csv"))},
         "library-queries.md": {"point-costs": point_costs(cpu)},
-        "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES), rows_of("effects_pairs_cpu.csv", ";"))},
+        "effects.md": {"costs": costs(*effects, rows_of("effects_pairs_cpu.csv", ";"))},
         "accuracy.md": {"against-time": search_against_step(vessel), "settings": settings(vessel), "cells": other_cells(vessel),
                         "kept": kept_list(vessel), "drift": drift(vessel), "paper": settings(tradeoff("paper"))},
         "paper.md": {"misses": paper_misses(study_cuda, vessel["cpu"]), "table-2": paper_table2(study_cpu, study_cuda),

@@ -7,12 +7,11 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt    # noqa: E402
 
-from pages import DEVICES, IMAGES, default_length, facts, find, of_study, rows_of, tradeoff    # noqa: E402
+from pages import DEVICES, IMAGES, default_length, facts, find, noise, number, of_study, rows_of, stands_out, tradeoff    # noqa: E402
 
 # By colour and by marker, so that a print in grey or a colour-blind reader tells them apart.
 STYLES = {"cpu": dict(color="#0072B2", marker="o"), "cuda": dict(color="#D55E00", marker="^")}
 FONT = 14
-NOISE = 3    # ns; doc/effects.md says so
 
 
 def write_image(figure, name, dpi=110):
@@ -58,25 +57,28 @@ def draw_mesh_size(rows_by_device):
 # ---- effects.md ----------------------------------------------------------------------------
 
 def draw_effects(cpu, cuda):
-    """What each effect adds on the CPU, the largest first; what it adds on the GPU is noise but for those that are named."""
+    """What each effect adds on the CPU, the largest first; and those that add most on the GPU, where it is no noise."""
+    least = noise(cpu)
     rows = sorted((r for r in cpu if r["over"]), key=lambda r: float(r["over_ns"]))
     values = [float(r["over_ns"]) for r in rows]
     figure, axis = plt.subplots(figsize=(8, 9))
     axis.barh(range(len(rows)), values, color="#0072B2")
-    axis.axvspan(-NOISE, NOISE, color="0.85", zorder=0)
+    axis.axvspan(-least, least, color="0.85", zorder=0)
     axis.axvline(0, color="black", linewidth=0.8)
     for at, value in enumerate(values):
-        if value > NOISE:
+        if value > least:
             axis.text(value + 0.8, at, f"{value:.0f}", va="center", fontsize=13)
-    axis.text(NOISE + 0.8, 0, "grey: noise", va="center", fontsize=13, color="0.35")
+    axis.text(least + 0.8, 0, "grey: noise", va="center", fontsize=13, color="0.35")
     axis.set_yticks(range(len(rows)), [r["name"] for r in rows], fontsize=13)
     axis.tick_params(axis="x", labelsize=13)
     axis.set_xlabel("added for each contact and step, ns", fontsize=14)
     axis.set_title("On a CPU core", fontsize=14)
     axis.set_xlim(right=1.08 * max(values))    # room for the number of the longest bar
     axis.grid(True, axis="x", alpha=0.3)
-    seen = [f"{r['name']} {float(r['over_ns']):.0f} ns" for r in cuda if r["over"] and float(r["over_ns"]) > NOISE]
-    axis.text(0.97, 0.06, "On the GPU: " + ("; ".join(seen) or "all are noise") + ";\nall others are within the noise",
+    seen = sorted((r for r in cuda if stands_out(cuda, r)), key=lambda r: -float(r["over_ns"]))
+    named = [f"{r['name']} {number(r['over_ns'], 2)} ns" for r in seen[:4]]
+    others = "are within the noise" if len(seen) == len(named) else "add less"
+    axis.text(0.97, 0.06, "On the GPU: " + (";\n".join(named) or "none stands out") + f";\nall others {others}",
               transform=axis.transAxes, ha="right", fontsize=13)
     figure.tight_layout()
     write_image(figure, "effects.png", dpi=90)
