@@ -267,7 +267,52 @@ def costs(cpu, cuda, pairs):
     alone = [r for r in cpu if r["over"] or r["name"] == "hooke"]
     several = [r for r in cpu if r not in alone]
     return "\n\n".join([told, table(alone, heads, cells), "Common combinations:",
-                        table(several, [heads[k] for k in shown], lambda r: [cells(r)[k] for k in shown])])
+                        table(several, [heads[k] for k in shown], lambda r: [cells(r)[k] for k in shown]), sums_of_costs(cpu, pairs)])
+
+
+def sums_of_costs(cpu, pairs):
+    """Why the parts of a law do not add up to the whole, by rolling and twisting at walls and between grains."""
+    def added(rows):
+        dry, rough, sds, marshall, mindlin = (find(rows, name=name) for name in ("dry grains", "rough grains", "rolling sds", "twisting marshall", "mindlin"))
+        together = float(rough["min_ns"]) - float(dry["min_ns"])
+        return (f"`rolling sds` adds {number(sds['over_ns'])} ns and `twisting marshall` {number(marshall['over_ns'])} to `tangential mindlin`, "
+                f"both {number(together)} ({percent(together / float(dry['min_ns']))}) to `granular hertz, tsuji, mindlin`"), float(dry["min_ns"]) - float(mindlin["min_ns"])
+
+    (wall, _), (pair, tsuji) = added(cpu), added(pairs)
+    return ("**Rows do not add up**, because a compiled kernel has several sub-models of `granular` in it: the first that a law asks for costs most, the next little. "
+            f"At a wall {wall}. Between grains {pair}: laws with a spring and `tsuji` or `viscoelastic`, and with no sub-model that few use, have faster loops of their own. Rows of one effect "
+            f"have no damping, and take the loop for any law, so that `granular hertz, tsuji, mindlin` takes {number(abs(tsuji))} ns {'less' if tsuji < 0 else 'more'} "
+            "than `tangential mindlin`, which has one part fewer.")
+
+
+def costs_in_short(cpu, cuda):
+    """The page's promise: what all but a tenth of the effects add at most."""
+    def most(rows, digits):
+        overs = sorted(float(r["over_ns"]) for r in rows if r["over"])
+        return short(overs[math.ceil(0.9 * len(overs)) - 1], digits)
+    return (f"nine of ten add at most {most(cpu, 2)} ns for each contact and step on a CPU core, and at most {most(cuda, 2)} ns on an H200"
+            f"{'' if is_in_place(cuda) else ', copies included'}")
+
+
+def costs_for_readme(cpu):
+    """README's words for the same."""
+    def over(name):
+        return f"{float(find(cpu, name=name)['over_ns']):+.0f}"
+    return (f"`hooke` {float(find(cpu, name='hooke')['min_ns']):.0f} ns a contact on a core; tangential spring {over('tangential spring')}, rolling (`sds`) {over('rolling sds')}, "
+            f"stress map {over('loads of triangles')}, JKR {over('jkr')}")
+
+
+def costs_of_bodies(rows):
+    """What bodies and coats cost on a core."""
+    of = {r["name"]: r for r in rows}
+
+    def over(name):
+        return float(of[name]["over_ns"])
+    body, moves = (over(f"contact on a {mesh}") for mesh in ("body", "mesh that moves"))
+    return (f"**A contact with a body costs {body - moves:.0f} ns more than one with a mesh that moves, and a body costs {over('step of a body') / 1e3:.2g} microseconds a step** on a core. "
+            f"In this scene, of more meshes with fewer contacts than the table's, a contact with a mesh that moves takes {moves:.0f} ns more than one with a mesh at rest, and one with a "
+            f"body {body:.0f}. A point of a *coat* costs {float(of['point of a coat that touches nothing']['min_ns']):.0f} ns while it touches nothing, and "
+            f"{float(short(over('contact of a point of a coat'), 2)):.0f} ns more at a mesh")
 
 
 # ---- accuracy.md, and what README says of it -----------------------------------------------
@@ -626,8 +671,10 @@ def tables():
     return {
         "performance.md": {"hours": hours(kokkos_cpu, kokkos_cuda), "cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda)},
         "notes/performance.md": {"scale": scale(rows_of("scale_cuda.csv")), "liggghts": liggghts(rows_of("liggghts_cpu.csv"))},
+        "notes/accuracy.md": {"floor": f"{float(effects[0][0]['min_ns']):.0f} ns"},
         "library-queries.md": {"point-costs": point_costs(cpu)},
-        "effects.md": {"costs": costs(*effects, rows_of("effects_pairs_cpu.csv", ";"))},
+        "effects.md": {"costs-short": costs_in_short(*effects), "costs": costs(*effects, rows_of("effects_pairs_cpu.csv", ";")),
+                       "bodies": costs_of_bodies(rows_of("effects_bodies_cpu.csv", ";"))},
         "accuracy.md": {"against-time": search_against_step(vessel), "settings": settings(vessel), "cells": other_cells(vessel),
                         "kept": kept_list(vessel), "drift": drift(vessel), "paper": settings(tradeoff("paper"))},
         "paper.md": {"misses": paper_misses(study_cuda, vessel["cpu"]), "table-2": paper_table2(study_cpu, study_cuda),
@@ -638,7 +685,7 @@ def tables():
                           "validation-lammps": validation_lammps(validation_rows("validation_lammps_yaml.tsv")),
                           "validation-liggghts": validation_liggghts(validation_rows("validation_liggghts.tsv"))},
         "../README.md": {"two-triangles": two_triangles(study_cuda, vessel["cpu"]), "accuracy-time": time_in_short(vessel),
-                         "validation-promise": validation_promise(validation_rows())},
+                         "validation-promise": validation_promise(validation_rows()), "effects-short": costs_for_readme(effects[0])},
     }
 
 
