@@ -127,7 +127,7 @@ struct MakeCountingLaw {
   CountingLaw operator()(const Law &law) const
   {
     if constexpr (!Law::kHeat || Law::kBeyondContact)
-      return on_wall<WallKernels::plain_or_both>(law, effects, [](const auto &compiled) {
+      return on_wall<WallKernels::plain_or_both, true>(law, effects, [](const auto &compiled) {
         using L = std::decay_t<decltype(compiled)>;
         return CountingLaw{
             traits_of(compiled), {LawBytes(compiled)}, run_compiled_law<L, CountingBackend>};
@@ -562,7 +562,7 @@ TEST(engine, a_step_without_outputs_neither_copies_nor_waits)
 {
   using Law = OnWall<HertzHistoryLaw, false, false>;
   const ContactLaw p = history();
-  const Law law = {{{p.k_normal}, {p.eta}, {p.k_tangent, p.gamma_tangent, p.mu}, false}, {}};
+  const Law law = {{{p.k_normal}, {p.eta}, {p.k_tangent, p.gamma_tangent, p.mu}, false}, {}, {}};
   Particles particles(with_history(), 2000, 0.5, false);
   particles.engine = std::make_unique<EngineOn<CountingBackend>>(
       with_history(),

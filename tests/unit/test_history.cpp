@@ -276,6 +276,7 @@ TEST(transfer_of, hands_on_all_forces_of_a_spring_by_the_same_part)
   const OnWall<Model, true, true, false, true> law = {
       granular_model<true, GranularSet::all>(granular_law(NormalModel::hooke),
                                              TouchingNormal{NormalModel::hooke, 1, 0}),
+      {},
       {}};
   KeptForces kept = {};
   kept.friction = {1, 2, 0};

@@ -21,7 +21,7 @@ struct CompileLaw {
   template <class Law>
   CompiledLaw<B> operator()(const Law &law) const
   {
-    return on_wall<kernels>(law, effects, [](const auto &compiled) {
+    return on_wall<kernels, B::kOnCpu>(law, effects, [](const auto &compiled) {
       using L = std::decay_t<decltype(compiled)>;
       return CompiledLaw<B>{traits_of(compiled), {LawBytes(compiled)}, run_compiled_law<L, B>};
     });

@@ -86,11 +86,22 @@ struct LossesOnWall<true> {
   bool keeps_losses;    // see ContactLaw
 };
 
-// kEnergy: the law records what contacts do with energy, and keeps KeptForces of each contact. kRecords: it writes an EnergyRecord
-// when one is due.
+// The number that a law with energy balance has where the nodes of a mesh may move.
+template <bool kKeptAtNodes_>
+struct EnergyAtNodes {
+  static constexpr bool kMayKeepAtNodes = false;
+};
+template <>
+struct EnergyAtNodes<true> {
+  static constexpr bool kMayKeepAtNodes = true;
+  bool keeps_at_nodes;    // see ContactLaw
+};
+
+// kNodes: the nodes of a mesh may move. kEnergy: the law records what contacts do with energy, and keeps KeptForces of each contact.
+// kRecords: it writes an EnergyRecord when one is due.
 template <class Law, bool kPosed_, bool kKeepsContacts_, bool kNodes_ = false,
           bool kEnergy_ = false, bool kRecords_ = false>
-struct OnWall : Law, LossesOnWall<kEnergy_ && kRecords_> {
+struct OnWall : Law, LossesOnWall<kEnergy_ && kRecords_>, EnergyAtNodes<kEnergy_ && kNodes_> {
   static constexpr bool kPosed = kPosed_, kKeepsContacts = kKeepsContacts_, kNodes = kNodes_,
                         kEnergy = kEnergy_, kRecords = kRecords_;
   static constexpr bool kShapes = IsShapeLaw<Law>::value;
@@ -105,7 +116,8 @@ struct OnWall : Law, LossesOnWall<kEnergy_ && kRecords_> {
 template <class Law>
 LSDCD_FN int n_stored(const Law &law)
 {
-  int n = n_extra(law) + (Law::kEnergy ? kKeptForces + (Law::kNodes ? kKeptAtNodes : 0) : 0);
+  int n = n_extra(law) + (Law::kEnergy ? kKeptForces : 0);
+  if constexpr (Law::kMayKeepAtNodes) n += law.keeps_at_nodes ? kKeptAtNodes : 0;
   if constexpr (Law::kLosses) n += law.keeps_losses ? kKeptLosses : 0;
   return n;
 }
@@ -113,30 +125,44 @@ LSDCD_FN int n_stored(const Law &law)
 // The kernels of a law, by their effects. plain: {none}. moving_or_both: {moving}, {moving + contacts}. plain_or_both: {none},
 // {moving + contacts}. A wall that has only contacts takes {moving + contacts}. For each of these there is also {moving + contacts +
 // nodes}, so that walls whose nodes do not move have no instruction for them. energy: {moving + contacts + energy}; energy_records:
-// the same with records; impacts: {moving + contacts + records}; each also with nodes.
+// the same with records; impacts: {moving + contacts + records}; each with nodes, and on a GPU also without.
 enum class WallKernels { plain, moving_or_both, plain_or_both, energy, energy_records, impacts };
 
-// Calls make(law) with the form of the law that has these effects.
-template <WallKernels kernels, class Law, class Make>
+// Calls make(law) with the form of a law that books energy, has records, or both. kForNodes: the form in which nodes may move serves
+// walls whose nodes do not, too.
+template <bool kEnergy, bool kRecords, bool kForNodes, class Law, class Make>
+auto on_wall_with_books(const Law &law, const WallEffects &effects, const Make &make)
+{
+  const auto make_form = [&](auto nodes) {
+    using Form = OnWall<Law, true, true, decltype(nodes)::value, kEnergy, kRecords>;
+    Form form = {law, {}, {}};
+    if constexpr (Form::kLosses) form.keeps_losses = effects.losses;
+    if constexpr (Form::kMayKeepAtNodes) form.keeps_at_nodes = effects.nodes;
+    return make(form);
+  };
+  if constexpr (!kForNodes)
+    if (!effects.nodes) return make_form(std::false_type());
+  return make_form(std::true_type());
+}
+
+// Calls make(law) with the form of the law that has these effects. kOnCpu: see on_wall_with_books(), as kForNodes.
+template <WallKernels kernels, bool kOnCpu, class Law, class Make>
 auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
 {
-  if constexpr (kernels == WallKernels::plain) return make(OnWall<Law, false, false>{law, {}});
+  if constexpr (kernels == WallKernels::plain) return make(OnWall<Law, false, false>{law, {}, {}});
   if constexpr (kernels == WallKernels::energy)
-    return effects.nodes ? make(OnWall<Law, true, true, true, true>{law, {}})
-                         : make(OnWall<Law, true, true, false, true>{law, {}});
+    return on_wall_with_books<true, false, kOnCpu>(law, effects, make);
   if constexpr (kernels == WallKernels::energy_records)
-    return effects.nodes ? make(OnWall<Law, true, true, true, true, true>{law, {effects.losses}})
-                         : make(OnWall<Law, true, true, false, true, true>{law, {effects.losses}});
+    return on_wall_with_books<true, true, kOnCpu>(law, effects, make);
   if constexpr (kernels == WallKernels::impacts)
-    return effects.nodes ? make(OnWall<Law, true, true, true, false, true>{law, {}})
-                         : make(OnWall<Law, true, true, false, false, true>{law, {}});
+    return on_wall_with_books<false, true, kOnCpu>(law, effects, make);
   if constexpr (kernels == WallKernels::moving_or_both)
-    if (!effects.contacts) return make(OnWall<Law, true, false>{law, {}});
+    if (!effects.contacts) return make(OnWall<Law, true, false>{law, {}, {}});
   if constexpr (kernels == WallKernels::plain_or_both)
-    if (!effects.contacts && !effects.posed) return make(OnWall<Law, false, false>{law, {}});
+    if (!effects.contacts && !effects.posed) return make(OnWall<Law, false, false>{law, {}, {}});
   if constexpr (kernels == WallKernels::moving_or_both || kernels == WallKernels::plain_or_both)
-    return effects.nodes ? make(OnWall<Law, true, true, true>{law, {}})
-                         : make(OnWall<Law, true, true>{law, {}});
+    return effects.nodes ? make(OnWall<Law, true, true, true>{law, {}, {}})
+                         : make(OnWall<Law, true, true>{law, {}, {}});
 }
 
 struct StepJob;

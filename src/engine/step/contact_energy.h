@@ -258,11 +258,12 @@ struct EnergyBook {
         kept_of(law, n, b.f, b.parts, slaves_spring(c, b.parts, old), b.weight, b.distance, b.arm);
     now.held = held_of(law, c, b.f, b.weight, now);
     memcpy(to + n_extra(law), &now, sizeof now);
-    if constexpr (Law::kNodes) {
-      const Real *const share = b.nodes.share;
-      const KeptAtNodes at = {n, {share[0], share[1], share[2]}};
-      memcpy(to + n_extra(law) + kKeptForces, &at, sizeof at);
-    }
+    if constexpr (Law::kMayKeepAtNodes)
+      if (law.keeps_at_nodes) {
+        const Real *const share = b.nodes.share;
+        const KeptAtNodes at = {n, {share[0], share[1], share[2]}};
+        memcpy(to + n_extra(law) + kKeptForces, &at, sizeof at);
+      }
     rows[EnergyRow::held] += now.held;
     const bool goes_on = in.from >= 0 && in.part == 1;
     if (in.from >= 0) EnergyMarks::mark(marks.taken, in.from);

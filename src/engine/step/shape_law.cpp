@@ -53,6 +53,7 @@ CompiledLaw<CpuBackend> compiled(const Base &base, ShapeWork &work)
   };
   const Law law = {
       {&work.laws.back(), evaluate, spring_of<Base>, reads_radius(base), &work, nullptr, nullptr},
+      {},
       {}};
   return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
 }
@@ -80,7 +81,7 @@ CompiledLaw<CpuBackend> booked(const Base &base, bool reads, [[maybe_unused]] bo
   const auto energy = [](const LawBytes &of, const Contact &c, Real overlap) {
     return of.as<Base>().normal_energy(c, overlap);
   };
-  Law law = {{&work.laws.back(), evaluate, spring_of<Base>, reads, &work, parts, energy}, {}};
+  Law law = {{&work.laws.back(), evaluate, spring_of<Base>, reads, &work, parts, energy}, {}, {}};
   if constexpr (kRecords) law.keeps_losses = keeps_losses;
   return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
 }
