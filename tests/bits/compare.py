@@ -149,6 +149,8 @@ def run(script, command, ranks, folder, files):
     words = ["mpirun", "--oversubscribe", "--allow-run-as-root", "-np", str(ranks), *words] if ranks > 1 else words
     environment = dict(os.environ, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                        OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_hwloc_base_binding_policy="none")
+    if ranks > 1 and os.environ.get("LSDCD_PATIENT_YIELD"):    # tests/lammps/patient_yield.cpp
+        environment["LD_PRELOAD"] = os.environ["LSDCD_PATIENT_YIELD"]
     done = subprocess.run(words, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, timeout=LIMIT)
     log = masked(done.stdout.decode(errors="replace"), folder)

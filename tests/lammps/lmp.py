@@ -176,6 +176,12 @@ def right_walls(text, units="lj"):
     return CLASSIC.sub(granular, text)
 
 
+def patience(env):
+    """What several processes have in their environment beside `env`, so that they sleep while they wait for each other (patient_yield.cpp)."""
+    preloaded = [path for path in (env.get("LD_PRELOAD"), env.get("LSDCD_PATIENT_YIELD")) if path]
+    return {"LD_PRELOAD": ":".join(preloaded), "OMPI_MCA_mpi_yield_when_idle": "1"}
+
+
 def run(script, folder, ranks=1, timeout=300, env=None, host=ON_HOST, flags=FLAGS, **variables):
     """Runs a script (a path, or text) in `folder`; returns the finished process. With `host` under that LAMMPS, which loads
     the plugin first, given `flags`."""
@@ -193,9 +199,11 @@ def run(script, folder, ranks=1, timeout=300, env=None, host=ON_HOST, flags=FLAG
     command += flags if host else ()
     for name, value in variables.items():
         command += ["-var", name, str(value)]
+    env = {**environment(), **(env or {})}
     if ranks > 1:
         command = [*MPIRUN, "-np", str(min(ranks, MOST_RANKS)), *command]
-    return subprocess.run(command, cwd=folder, env={**environment(), **(env or {})}, text=True,
+        env.update(patience(env))
+    return subprocess.run(command, cwd=folder, env=env, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
 
 

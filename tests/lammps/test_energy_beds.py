@@ -24,8 +24,8 @@ STEPS = (50, 150)    # in a contact
 
 
 def closes(folder, script, contact, seconds, columns=(), **words):
-    """The last row of the shortest timestep. With the longest one the books also close on 4 processes, and where it goes on there from a restart file
-    of the middle; the quick suite leaves these out."""
+    """The last row of the shortest timestep. With the longest one the books also close where 4 processes go on from a restart file of the middle; the
+    quick suite leaves this out."""
     def last(name, n, part=1.0, ranks=1, text=script):
         dt = contact / n
         out = lmp.run_well(text.format(dt=repr(dt), steps=round(part * seconds / dt), columns=" ".join([*COLUMNS, *columns]), **words), folder, ranks,
@@ -35,13 +35,13 @@ def closes(folder, script, contact, seconds, columns=(), **words):
         fact(f"{name}, {n} steps: all causes dissipate", all(b[c] > 0 for c in CAUSES if c != "adhesion"), b)
         at_most(f"{name}, {n} steps: remainder over the work of the drive", missing, 1e-4 * (150 / n) ** 2)
         return b
+    long, short = STEPS
+    half = round(seconds * long / contact / 2)
+    last("one process", long, text=script.replace("run ", f"restart {half} half.*\nrun "))
     if not lmp.QUICK:
-        last("4 processes", STEPS[0], ranks=4)
-        dt = contact / STEPS[0]
-        lmp.run_well((script + "write_restart half.restart\n").format(dt=repr(dt), steps=round(seconds / dt / 2), columns="", **words), folder, timeout=3000)
-        again = "newton off\nread_restart half.restart\ncomm_modify vel yes\n" + script[script.index("pair_style"):]
-        last("restarted on 4", STEPS[0], 0.5, 4, again)
-    return [last("one process", n) for n in STEPS][-1]
+        again = f"newton off\nread_restart half.{half}\ncomm_modify vel yes\n" + script[script.index("pair_style"):]
+        last("restarted on 4 processes", long, 0.5, 4, again)
+    return last("one process", short)
 
 
 SCREW_LAW = "hooke 5000 0.6 damping coeff_restitution tangential linear_history_slip 1400 1 0.4 rolling sds 160 0 0.01 twisting sds 10 0 0.006"

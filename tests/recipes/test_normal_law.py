@@ -51,16 +51,6 @@ def form(request):
     return FORMS[request.param]
 
 
-# ---- the page ------------------------------------------------------------------------------
-
-def test_the_recipe_names_these_files_in_this_order(folder):
-    page = (copied_sources.ROOT / "doc" / "design.md").read_text()
-    recipe = page.split("\n### Adding a normal law\n")[1].split("\n#")[0]
-    steps = re.findall(r"^\d\. (.*(?:\n   .*)*)", recipe, re.M)
-    named = [re.search(r"`([\w/]+\.\w+)`", step).group(1) for step in steps]
-    fact("the first file of each step is the next of EDITS", named == list(stiffening.EDITS), named)
-
-
 # ---- unit tests that go through the table of sub-models -----------------------------------------
 
 @pytest.mark.parametrize("name", UNIT_TESTS)
