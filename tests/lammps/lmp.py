@@ -77,7 +77,8 @@ SMALL_BOX = SMALL_BOX_AT_REST + "fix             move all nve/sphere\n"
 MPI_FOLDER = tempfile.TemporaryDirectory(prefix="mpi")
 
 
-def environment():
+def environment(**more):
+    """That of LAMMPS, with `more` variables; what these preload comes first."""
     env = dict(os.environ, OMP_NUM_THREADS="1")
     # Open MPI refuses root, more ranks than cores, and binding in some containers.
     env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
@@ -94,6 +95,11 @@ def environment():
     # All such processes give their folder the same name and remove it when they end. Each gets a
     # parent folder of its own, so that none removes the folder of another.
     env.update(OMPI_MCA_orte_tmpdir_base=tempfile.mkdtemp(dir=MPI_FOLDER.name))
+    # Several processes sleep while they wait for each other (patient_yield.cpp).
+    env.update(OMPI_MCA_mpi_yield_when_idle="1", **more)
+    preloaded = [path for path in (env.get("LD_PRELOAD"), env.get("LSDCD_PATIENT_YIELD")) if path]
+    if preloaded:
+        env["LD_PRELOAD"] = ":".join(preloaded)
     return env
 
 
@@ -176,12 +182,6 @@ def right_walls(text, units="lj"):
     return CLASSIC.sub(granular, text)
 
 
-def patience(env):
-    """What several processes have in their environment beside `env`, so that they sleep while they wait for each other (patient_yield.cpp)."""
-    preloaded = [path for path in (env.get("LD_PRELOAD"), env.get("LSDCD_PATIENT_YIELD")) if path]
-    return {"LD_PRELOAD": ":".join(preloaded), "OMPI_MCA_mpi_yield_when_idle": "1"}
-
-
 def run(script, folder, ranks=1, timeout=300, env=None, host=ON_HOST, flags=FLAGS, **variables):
     """Runs a script (a path, or text) in `folder`; returns the finished process. With `host` under that LAMMPS, which loads
     the plugin first, given `flags`."""
@@ -199,11 +199,9 @@ def run(script, folder, ranks=1, timeout=300, env=None, host=ON_HOST, flags=FLAG
     command += flags if host else ()
     for name, value in variables.items():
         command += ["-var", name, str(value)]
-    env = {**environment(), **(env or {})}
     if ranks > 1:
         command = [*MPIRUN, "-np", str(min(ranks, MOST_RANKS)), *command]
-        env.update(patience(env))
-    return subprocess.run(command, cwd=folder, env=env, text=True,
+    return subprocess.run(command, cwd=folder, env=environment(**(env or {})), text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
 
 

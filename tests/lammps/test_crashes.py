@@ -45,12 +45,11 @@ def descendants(pid):
 def killed(folder, ranks, wait):
     """Runs until both restart files are there and `wait` seconds more, then kills all at once."""
     (folder / "in.killed").write_text(text(scene.CREATE, f"run {ENDLESS}\n"))
-    command, env = [lmp.LMP, "-in", "in.killed", "-log", "none", "-nocite"], lmp.environment()
+    command = [lmp.LMP, "-in", "in.killed", "-log", "none", "-nocite"]
     if ranks > 1:
         command = ["mpirun", "-np", str(ranks), "--oversubscribe", *command]
-        env.update(lmp.patience(env))
     with open(folder / "killed.out", "w") as out:
-        run = subprocess.Popen(command, cwd=folder, env=env, stdout=out, stderr=out)
+        run = subprocess.Popen(command, cwd=folder, env=lmp.environment(), stdout=out, stderr=out)
     end = time.time() + 120
     while not all((folder / n).exists() for n in NAMES) and run.poll() is None and time.time() < end:
         time.sleep(0.01)

@@ -126,11 +126,13 @@ COLOURS = """(() => {
   for (let i = 0; i < p.length; i += 4) seen.add((p[i] >> 4) << 8 | (p[i + 1] >> 4) << 4 | p[i + 2] >> 4);
   return seen.size;
 })()"""
-SET = "(e => {{ e.{what} = {value}; e.dispatchEvent(new Event('{event}')); return true; }})(document.getElementById('{name}'))"
+# A page that loads itself again has neither choices nor listeners until it is drawn.
+DRAWN = "document.body.dataset.ready && "
+SET = DRAWN + "(e => {{ e.{what} = {value}; e.dispatchEvent(new Event('{event}')); return true; }})(document.getElementById('{name}'))"
 
 
 def set_input(browser, name, value, event="input", what="value"):
-    browser.once(SET.format(name=name, value=value, event=event, what=what))
+    browser.wait_for(SET.format(name=name, value=value, event=event, what=what), name)
 
 
 @pytest.mark.parametrize("kind", BROWSERS)
@@ -204,12 +206,12 @@ def test_live_page_in_a_browser(folder, kind):
         first = browser.once("document.getElementById('state').textContent").split(" of ")[0]
         set_input(browser, "field", "'impact_energy'", "change")
         as_it_was(folder / "mill", at, 0.66)
-        moved = f"document.body.dataset.ready && !document.getElementById('state').textContent.startsWith({first!r})"
+        moved = f"{DRAWN}!document.getElementById('state').textContent.startsWith({first!r})"
         browser.wait_for(moved, "the next page")
-        fact("the chosen field stays", browser.once("document.getElementById('field').value") == "impact_energy")
-        fact("the slider is at the last frame", browser.once("(t => t.value === t.max)(document.getElementById('time'))"))
+        fact("the chosen field stays", browser.wait_for(DRAWN + "document.getElementById('field').value", "a field") == "impact_energy")
+        fact("the slider is at the last frame", browser.wait_for(DRAWN + "(t => [t.value === t.max])(document.getElementById('time'))", "a slider") == [True])
         as_it_was(folder / "mill", at, 1)
-        browser.wait_for("document.body.dataset.ready && document.getElementById('state').textContent.startsWith('finished')", "the end of the run")
+        browser.wait_for(DRAWN + "document.getElementById('state').textContent.startsWith('finished')", "the end of the run")
         browser.run("window.stays = true")
         browser.wait_for("new Promise(done => setTimeout(() => done(window.stays), 2500))" if kind is Chromium else "window.stays", "the same page")
         fact("the console has no error", browser.errors() == [], browser.errors())
