@@ -301,6 +301,8 @@ typedef struct lsdcd_shape_facts {
   double inscribed;     /* radius of the largest one that it holds */
   /* Least radius of curvature. Contacts with an overlap above it may jump where they leave a fold or an edge. */
   double curvature_radius;
+  /* Least mass with which a point of its surface meets a plane, over the mass: 1 for a sphere, 1/4 for a long rod. */
+  double least_mass;
 } lsdcd_shape_facts;
 /* half_axes: a b c; exponents: n1 n2, from 2 to 20, null: 2. LSDCD_ERROR_INPUT: numbers that make no shape. Any. */
 LSDCD_API int lsdcd_shape_get_facts(const double *half_axes, const double *exponents,

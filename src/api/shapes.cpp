@@ -10,6 +10,7 @@
 #include "api/points_given.h"
 #include "api/refusals.h"
 #include "query/shape_query.h"
+#include "shape/least_mass.h"
 
 #include <cstddef>
 #include <string>
@@ -152,8 +153,9 @@ int lsdcd_shape_get_facts(const double *half_axes, const double *exponents,
         make_superellipsoid({half_axes[0], half_axes[1], half_axes[2]},
                             exponents ? exponents[0] : 2, exponents ? exponents[1] : 2);
     const Vec3 inertia = inertia_over_mass(s);
-    *facts = {facts->size, volume(s), {inertia.x, inertia.y, inertia.z},
-              s.farthest,  s.nearest, s.rho};
+    *facts = {facts->size,        volume(s), {inertia.x, inertia.y, inertia.z},
+              s.farthest,         s.nearest, s.rho,
+              least_mass_share(s)};
   });
 }
 

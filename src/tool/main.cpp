@@ -20,7 +20,7 @@ constexpr int kDone = 0, kUnusable = 1, kUsage = 2;
 int run(int argc, char **argv)
 {
   Program program("lsdcd: meshes of DEM walls, their grids, distances to them, bodies in them, "
-                  "materials, and reports and films of runs",
+                  "materials, shapes of grains, and reports and films of runs",
                   std::string("lsdcd ") + version() + (*LSDCD_COMMIT ? " (" LSDCD_COMMIT ")" : ""));
   program.footer("lsdcd COMMAND --help shows its options and an example.\n"
                  "Exit codes: 0: done; 1: a file or mesh cannot be used; 2: wrong arguments;\n"
@@ -35,6 +35,7 @@ int run(int argc, char **argv)
   add_collide_command(program);
   add_material_command(program);
   add_timestep_command(program);
+  add_shape_command(program);
   add_tradeoff_command(program);
   add_accuracy_command(program);
   add_effects_command(program);

@@ -194,6 +194,8 @@ TEST_F(Shape, has_the_facts_of_closed_forms)
   EXPECT_DOUBLE_EQ(ellipsoid.circumscribed, 5);
   EXPECT_DOUBLE_EQ(ellipsoid.inscribed, 1);
   EXPECT_DOUBLE_EQ(ellipsoid.curvature_radius, 0.2);
+  // The longest arm of its normals is the difference of its half-axes.
+  EXPECT_NEAR(ellipsoid.least_mass, 1 / (1 + 16 / (26.0 / 5)), 1e-9);
 }
 
 TEST_F(Shape, is_refused_by_a_sentence_where_it_makes_none)

@@ -218,6 +218,7 @@ def test_shapes():
     facts = lsdcd.shape_facts((3, 2, 1), (4, 8))
     fact("a shape has a volume and inertia", abs(facts.volume - 41.049289) < 5e-7 and abs(facts.inertia[1] - 2.925070) < 5e-7,
          facts)
+    fact("a sphere meets a plane with its whole mass", lsdcd.shape_facts((2, 2, 2)).least_mass == 1, facts)
     # The plane cuts the triangle halfway up, along half its base.
     upright = lsdcd.Mesh(np.array([[[0, 0, -1], [2, 0, -1], [0, 0, 1]]], float))
     cut = lsdcd.Body(lsdcd.Mesh(np.array([[[-9, -9, 0], [9, -9, 0], [0, 9, 0]]], float)), upright).collide((1, 2, 0), segments=True)

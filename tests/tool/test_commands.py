@@ -18,7 +18,7 @@ from triangles import cube
 # What is missing where a command stands alone.
 NEEDS = {"inspect": "file is required", "repair": "file is required", "convert": "file is required",
          "generate": "subcommand is required", "grid": "file is required", "distance": "mesh is required", "collide": "wall is required",
-         "material": "file is required", "timestep": "--radius is required", "tradeoff": "file is required", "accuracy": None, "effects": None,
+         "material": "file is required", "timestep": "--radius is required", "shape": "lengths is required", "tradeoff": "file is required", "accuracy": None, "effects": None,
          "report": "required: folder", "film": "required: folder"}
 # Words that make an example quick.
 QUICK = {"tradeoff": "--spheres 100 --moving 2 --repeats 1 --seconds 0.2 --device cpu --plot none"}
@@ -68,6 +68,14 @@ GOOD = [
     ("timestep --young 5e6 --poisson 0.25 --density 2500 --radius 0.002 --speed 1 --wall-young 1e30",
      ["3.55556e+06 on grains, 7.11111e+06 on the wall"]),
     ("timestep glass.lsdcd glass --on steel --radius 0.001 --speed 1", ["set by the Rayleigh time"]),
+    # A sphere of radius 1 and mass 3 on a spring of 12: pi sqrt(3/12) at a wall, a tenth of that over sqrt(2).
+    ("shape 2 2 2 --density 0.716197244 --kn 12", ["volume             4.1887902 ", "mass               3\n", "least mass         1 of", "contact            1.571 at a wall, 1.111 between two", "timestep           0.111 ",
+                                                  "set group all shape 2 2 2\n"]),
+    # J = (a^2 + c^2)/5 across the axis, and a normal's longest arm is c - a: 1/(1 + 5 16/26).
+    ("shape 2 2 10 --json", {"volume": 20.943951023931955, "inertia_over_mass": [5.2, 5.2, 0.4], "curvature_radius": 0.2, "circumscribed_radius": 5}),
+    ("shape 2 2 10", ["least mass         0.2453 of", "half-axes          1 1 5, block 2 2"]),
+    # Beta functions: doc/library-queries.md has the tablet.
+    ("shape 6 4 2 --block 4 8 --density 1", ["volume             41.0492888", "set group all block 4 8"]),
     ("tradeoff wall.stl --radius 0.1 " + QUICK["tradeoff"], ["default", "rows in tradeoff.csv"]),
     ACCURACY,
     # Between grains: the number of the pair in the list and three numbers, with a rolling model three more; none of a belt.
@@ -106,6 +114,10 @@ BAD = [    # words, exit code, what is said
     ("material glass.lsdcd glass --units miles", 2, ["miles", "cgs"]),
     ("material glass.lsdcd glass --normal hooke", 2, ["hooke", "hertz/material"]),
     ("timestep --radius 1 --speed 1", 2, ["--young", "material file"]),
+    ("shape 1 1", 2, ["lengths"]),
+    ("shape 1 1 0", 2, ["lengths", "0 is not a number above 0"]),
+    ("shape 1 1 1 --kn 5", 2, ["--kn", "--density"]),
+    ("shape 1 1 1 --block 1.5 2", 1, ["exponent", "1.5", "from 2, an ellipsoid, to 20"]),
     ("timestep --radius 0 --speed 1", 2, ["--radius", "0 is not a number above 0"]),
     ("timestep --radius 1", 2, ["--speed is required"]),
     ("timestep --radius 1 --speed 1 --poisson 0.6", 2, ["--poisson", "0.6"]),

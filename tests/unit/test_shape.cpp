@@ -4,6 +4,7 @@
 // Superellipsoids and the least signed distance of triangles from them, against closed forms and an oracle in long double
 // that knows the shape by its two defining formulas alone.
 //   LSDCD_SHAPE_PAIRS  pairs of shape and triangle, 2e4 unless given
+#include "shape/least_mass.h"
 #include "shape/superellipsoid.h"
 #include "shape/triangle_minimum.h"
 #include "support/random.h"
@@ -252,6 +253,42 @@ TEST(shape, has_its_least_radius_of_curvature_on_a_narrow_ridge)
       {{0.591307, 0.110273, 0.0518426}, 2.001, 12, 0.00453891088}};
   for (const auto &row : rows)
     EXPECT_NEAR(make_superellipsoid(row.half, row.n1, row.n2).rho, row.rho, 2e-5 * row.rho);
+}
+
+// The longest arm of a normal of a spheroid is the difference of its half-axes a and c, and its inertia across the axis (a^2 + c^2)/5 m.
+TEST(shape, meets_a_plane_with_the_least_mass_of_a_spheroid_in_closed_form)
+{
+  for (const auto &[a, c] : {std::array<Real, 2>{1, 1}, {1, 5}, {0.2, 1}, {1.5, 0.8}, {3, 0.1}}) {
+    const Real arm = a - c, share = 1 / (1 + 5 * arm * arm / (a * a + c * c));
+    EXPECT_NEAR(least_mass_share(make_superellipsoid({a, a, c}, 2, 2)), share, 1e-9);
+    EXPECT_NEAR(least_mass_share(make_superellipsoid({c, a, a}, 2, 2)), share, 1e-9);
+  }
+}
+
+// Normals of a lattice of directions do not have the very least: between two of them, a step of 1/80 of a quarter turn apart, an arm
+// that turns with its normal changes by half of the square of that at most, times the ratio of the half-axes, here up to 5.
+TEST(shape, meets_a_plane_with_no_less_mass_than_at_any_of_its_normals)
+{
+  constexpr int kSteps = 80;
+  const Real step = kPi / 2 / kSteps;
+  Random random(91);
+  for (int k = 0; k < 40; k++) {
+    const Superellipsoid s = random_shape(random, 20);
+    const ShapeOracle oracle(s);
+    const LongVec inertia = vec_cast<Long>(inertia_over_mass(s));
+    Long least = 1;
+    for (int i = 0; i <= kSteps; i++)
+      for (int j = 0; j <= kSteps; j++) {
+        const Vec3 n = {std::cos(i * step) * std::cos(j * step),
+                        std::cos(i * step) * std::sin(j * step), std::sin(i * step)};
+        const LongVec arm = cross(oracle.point(vec_cast<Long>(n)), vec_cast<Long>(n));
+        least = std::min(least, 1 / (1 + arm.x * arm.x / inertia.x + arm.y * arm.y / inertia.y +
+                                     arm.z * arm.z / inertia.z));
+      }
+    const Real found = least_mass_share(s);
+    EXPECT_LE(found, least * (1 + 1e-9)) << k;
+    EXPECT_GE(found, least * (1 - 5 * step * step)) << k;
+  }
 }
 
 TEST(shape, finds_the_point_of_its_surface_from_which_a_point_was_made)

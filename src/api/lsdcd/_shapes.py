@@ -42,6 +42,7 @@ class ShapeFacts(_Record):
     circumscribed: float    # radius of the smallest sphere about the centre that holds it
     inscribed: float        # radius of the largest one that it holds
     curvature_radius: float    # the least one: up to it all overlaps are exact
+    least_mass: float       # with which a point of its surface meets a plane, over the mass
 
 
 def _rows(given: ArrayLike, name: str, columns: int) -> NDArray[np.float64]:
@@ -52,7 +53,7 @@ def _rows(given: ArrayLike, name: str, columns: int) -> NDArray[np.float64]:
 
 
 def shape_facts(half_axes: ArrayLike, exponents: ArrayLike = (2, 2)) -> ShapeFacts:
-    """Volume, inertia and radii of the body (|x/a|^n2 + |y/b|^n2)^(n1/n2) + |z/c|^n1 <= 1 with the half-axes (a, b, c) and the
+    """Volume, inertia, radii and the least mass of the body (|x/a|^n2 + |y/b|^n2)^(n1/n2) + |z/c|^n1 <= 1 with the half-axes (a, b, c) and the
     exponents (n1, n2), from 2 to 20. Raises Error for numbers that make no shape."""
     half, n = _rows(half_axes, "half_axes", 3), _rows(exponents, "exponents", 2)
     if half.ndim != 1 or n.ndim != 1:
@@ -60,7 +61,7 @@ def shape_facts(half_axes: ArrayLike, exponents: ArrayLike = (2, 2)) -> ShapeFac
     facts = _sized(_ShapeFacts)
     _check(_lib.lsdcd_shape_get_facts(half.ctypes.data, n.ctypes.data, ctypes.byref(facts)))
     return ShapeFacts(volume=facts.volume, inertia=tuple(facts.inertia), circumscribed=facts.circumscribed,
-                      inscribed=facts.inscribed, curvature_radius=facts.curvature_radius)
+                      inscribed=facts.inscribed, curvature_radius=facts.curvature_radius, least_mass=facts.least_mass)
 
 
 def _asked(centres: ArrayLike, half_axes: ArrayLike, exponents: ArrayLike | None, quaternions: ArrayLike | None,
