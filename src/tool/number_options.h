@@ -6,10 +6,14 @@
 
 #include "base/input_words.h"
 
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace lsdcd {
+
+// What an option of a number holds until it is given.
+inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 // Checks of words: CLI11's own would print the largest double in their messages.
 inline std::string above_zero(const std::string &word)

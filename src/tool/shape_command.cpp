@@ -11,7 +11,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,8 +18,6 @@
 namespace lsdcd {
 
 namespace {
-
-constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 struct ShapeOptions {
   std::vector<double> lengths, block = {2, 2};

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,7 +21,6 @@ namespace lsdcd {
 
 namespace {
 
-constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRayleighShare = 0.2;
 constexpr double kStepsPerImpact = 20;
 constexpr double kDeep = 0.05;    // overlap / radius; larger overlaps change the results
