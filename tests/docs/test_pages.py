@@ -68,7 +68,7 @@ COMPILES = "compiles this tree, as each test does before"
 NEWER = "needs a newer LAMMPS: test_host runs it"
 NOT_RUN = {
     ("README.md", "./run build"): COMPILES,
-    ("doc/fix_wall_lsdcd.rst", "units        si\nplugin"): NEWER,
+    ("doc/shaped_grains.rst", "units        si\nplugin"): NEWER,
     ("doc/install.md", "plugin load build-host"): NEWER,
     ("doc/install.md", "./run build"): COMPILES,
     ("doc/install.md", "./run package"): "compiles this tree; check_release.py looks into its packages",
