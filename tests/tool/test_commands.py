@@ -74,8 +74,8 @@ GOOD = [
     # J = (a^2 + c^2)/5 across the axis, and a normal's longest arm is c - a: 1/(1 + 5 16/26).
     ("shape 2 2 10 --json", {"volume": 20.943951023931955, "inertia_over_mass": [5.2, 5.2, 0.4], "curvature_radius": 0.2, "circumscribed_radius": 5}),
     ("shape 2 2 10", ["least mass         0.2453 of", "half-axes          1 1 5, block 2 2"]),
-    # Beta functions: doc/library-queries.md has the tablet.
-    ("shape 6 4 2 --block 4 8 --density 1", ["volume             41.0492888", "set group all block 4 8"]),
+    # 2 a b c e1 e2 B(e1/2 + 1, e1) B(e2/2, e2/2) with e = 2/n.
+    ("shape 6 4 2 --block 4 8 --density 1", ["volume             41.0492894", "set group all block 4 8"]),
     ("tradeoff wall.stl --radius 0.1 " + QUICK["tradeoff"], ["default", "rows in tradeoff.csv"]),
     ACCURACY,
     # Between grains: the number of the pair in the list and three numbers, with a rolling model three more; none of a belt.
