@@ -128,8 +128,8 @@ LSDCD_FN int n_stored(const Law &law)
 // the same with records; impacts: {moving + contacts + records}; each with nodes, and on a GPU also without.
 enum class WallKernels { plain, moving_or_both, plain_or_both, energy, energy_records, impacts };
 
-// Calls make(law) with the form of a law that books energy, has records, or both. kForNodes: the form in which nodes may move serves
-// walls whose nodes do not, too.
+// Calls make(law) with the form of a law that books energy, has records, or both. kForNodes: walls whose nodes do not move take the form
+// in which they may, too, so that the compiler makes one form of each law and not two.
 template <bool kEnergy, bool kRecords, bool kForNodes, class Law, class Make>
 auto on_wall_with_books(const Law &law, const WallEffects &effects, const Make &make)
 {
@@ -145,7 +145,8 @@ auto on_wall_with_books(const Law &law, const WallEffects &effects, const Make &
   return make_form(std::true_type());
 }
 
-// Calls make(law) with the form of the law that has these effects. kOnCpu: see on_wall_with_books(), as kForNodes.
+// Calls make(law) with the form of the law that has these effects. On a CPU one form with books or records serves walls whose nodes move
+// and others: see on_wall_with_books(). On a GPU, where each number that a kernel holds takes a register, there are two.
 template <WallKernels kernels, bool kOnCpu, class Law, class Make>
 auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
 {
