@@ -46,8 +46,11 @@ ShapeAnswer answer_of(const ShapeOptions &o)
   a.inertia = inertia_over_mass(a.shape);
   a.sphere = std::cbrt(a.volume / (4 * kPi / 3));
   a.least_mass = least_mass_share(a.shape);
-  a.at_wall = kPi * std::sqrt(a.least_mass * a.mass / o.kn);
-  a.pair = a.at_wall / std::sqrt(2.0);
+  ContactLaw law = granular_law(NormalModel::hooke);
+  law.k_normal = o.kn;
+  const double mass = a.least_mass * a.mass;
+  a.at_wall = contact_time(law, mass, a.sphere, 1);
+  a.pair = contact_time(law, mass / 2, a.sphere, 1);
   a.timestep = a.pair / kStepsPerContact;
   return a;
 }

@@ -59,7 +59,7 @@ def top_of_sources(folder, *written):
 
 def shell(words, folder, **environment):
     return subprocess.run(words, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          stdin=subprocess.DEVNULL, env={**lmp.environment(), **environment})
+                          stdin=subprocess.DEVNULL, env=lmp.environment(**environment))
 
 
 DEVELOPERS = {"doc/design.md", "doc/testing.md"}

@@ -96,7 +96,7 @@ def environment(**more):
     # parent folder of its own, so that none removes the folder of another.
     env.update(OMPI_MCA_orte_tmpdir_base=tempfile.mkdtemp(dir=MPI_FOLDER.name))
     # Several processes sleep while they wait for each other (patient_yield.cpp).
-    env.update(OMPI_MCA_mpi_yield_when_idle="1", **more)
+    env.update({"OMPI_MCA_mpi_yield_when_idle": "1", **more})
     preloaded = [path for path in (env.get("LD_PRELOAD"), env.get("LSDCD_PATIENT_YIELD")) if path]
     if preloaded:
         env["LD_PRELOAD"] = ":".join(preloaded)

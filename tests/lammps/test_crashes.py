@@ -122,7 +122,7 @@ def test_killed_in_a_write(folder):
             scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl " + files) + "run 100\n")
         command = f"ulimit -c 0; ulimit -f {limit}; exec '{lmp.LMP}' -in in.limited -log none -nocite"
         # Open MPI 5 would begin with a file of its own that is larger than the limit, to talk to other processes.
-        return subprocess.run(["sh", "-c", command], cwd=folder, env={**lmp.environment(), "OMPI_MCA_btl": "self"},
+        return subprocess.run(["sh", "-c", command], cwd=folder, env=lmp.environment(OMPI_MCA_btl="self"),
                               stdout=subprocess.DEVNULL).returncode
 
     fact("without a limit it runs", run("unlimited") == 0)

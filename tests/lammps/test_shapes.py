@@ -472,7 +472,7 @@ def test_flat_side_is_finite(folder):
 def test_script_of_the_page(folder):
     """As it stands, but for the place of the plugin, and for 1 m/s downwards, so that the lowest layer is back from the bottom after a
     tenth of the steps."""
-    page = Page("doc/fix_wall_lsdcd.rst")
+    page = Page("doc/shaped_grains.rst")
     script = next(block.text for block in page.blocks if re.search("^atom_style +ellipsoid superellipsoid", block.text, re.M))
     tool = lmp.pathlib.Path(lmp.LMP).parent / "lsdcd"
     command = re.search(r"`lsdcd (generate cylinder [^`]*)`", page.text)[1]
