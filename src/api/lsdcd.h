@@ -640,6 +640,8 @@ typedef struct lsdcd_wall_totals {
   double impacts, impact_energy;
   /* With `energy` and `wear ... deform`: energy that contacts lose as wear moves the mesh. */
   double lost_wear;
+  /* With `energy` and a law that yields, by yielding: power in the last step, and energy since the first one. */
+  double dissipated_power_plastic, dissipated_plastic;
   double elastic_energy; /* of overlaps and tangential springs, by the forces of the last step */
 } lsdcd_wall_totals;
 /* The totals of a mesh in the last step, over all processes; -1: of all, with the servo of the only mesh that has one. The torque is about the point `about`, of
@@ -715,6 +717,8 @@ typedef struct lsdcd_wall_contacts {
   double *dissipated_power, *dissipated;
   int *
       has_ended; /* 1: the sphere touched there in the step before, and no more; `point` is where it was */
+  /* With `energy`; else 0. 1 number each, likewise by yielding. */
+  double *dissipated_power_plastic, *dissipated_plastic;
 } lsdcd_wall_contacts;
 /* Of a wall with `each_contact`. Of a sphere in several they come one after the other. LSDCD_ERROR_ARGUMENT also before the
  * first step after lsdcd_wall_restore(), as saved numbers have none. Own. */

@@ -60,7 +60,7 @@ struct OutputInfo {
   const char *unit, *text;
 };
 
-constexpr std::size_t kTotals = 47;
+constexpr std::size_t kTotals = 49;
 static_assert(sizeof(lsdcd_wall_totals) ==
                   offsetof(lsdcd_wall_totals, force) + kTotals * sizeof(double),
               "lsdcd_wall_totals has the rows of wall_outputs(), in their order");
@@ -223,11 +223,14 @@ int lsdcd_wall_get_contacts(lsdcd_wall *wall, lsdcd_wall_contacts *contacts)
       if (to.mesh) to.mesh[i] = c.mesh;
       if (to.overlap) to.overlap[i] = c.overlap;
       if (to.has_ended) to.has_ended[i] = c.has_ended;
-      for (int k = 0; k < kLossCauses; k++) {
-        if (to.dissipated_power)
-          to.dissipated_power[kLossCauses * i + k] = c.losses ? c.losses->power[k] : 0;
-        if (to.dissipated) to.dissipated[kLossCauses * i + k] = c.losses ? c.losses->energy[k] : 0;
-      }
+      constexpr int kByCause = kLossCauses - 1;    // the last one, yielding, has arrays of its own
+      const auto put = [&](double *by_cause, double *plastic, const Real *losses) {
+        for (int k = 0; k < kByCause; k++)
+          if (by_cause) by_cause[kByCause * i + k] = losses ? losses[k] : 0;
+        if (plastic) plastic[i] = losses ? losses[kByCause] : 0;
+      };
+      put(to.dissipated_power, to.dissipated_power_plastic, c.losses ? c.losses->power : nullptr);
+      put(to.dissipated, to.dissipated_plastic, c.losses ? c.losses->energy : nullptr);
       for (int k = 0; k < 3; k++) {
         if (to.force) to.force[3 * i + k] = c.force[k];
         if (to.point) to.point[3 * i + k] = c.point[k];

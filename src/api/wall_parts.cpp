@@ -53,11 +53,15 @@ std::string numbers_of(const Chosen<Model> &chosen)
 // `modulus` is 3/4 k_normal; `for_shapes` and those that begin with `keeps` are the wall's.
 std::string text_of(const ContactLaw &law)
 {
-  const auto &[normal, k_normal, modulus, surface_energy, damping, eta, tangential, k_tangent,
-               gamma_tangent, xgammat, mu, rolling, twisting, heat, cohesion, limit_damping,
-               for_shapes, keeps_forces, keeps_at_nodes, keeps_losses, keeps_touch] = law;
+  const auto &[normal, k_normal, modulus, surface_energy, plastic, damping, eta, tangential,
+               k_tangent, gamma_tangent, xgammat, mu, rolling, twisting, heat, cohesion,
+               limit_damping, for_shapes, keeps_forces, keeps_at_nodes, keeps_losses, keeps_touch] =
+      law;
   return sub_models_text(law) + " with " +
          row_of(k_normal, surface_energy, eta, k_tangent, gamma_tangent, xgammat, mu) +
+         (law.yields() ? ", " + row_of(plastic[0], plastic[1], plastic[2], plastic[3], plastic[4],
+                                       plastic[5])
+                       : "") +
          numbers_of(rolling) + numbers_of(twisting) + numbers_of(heat) + numbers_of(cohesion) +
          (limit_damping ? ", limit_damping" : "");
 }

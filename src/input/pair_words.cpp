@@ -6,6 +6,7 @@
 #include "base/input_words.h"
 #include "input/granular_words.h"
 #include "input/material_words.h"
+#include "law/make_law.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -109,8 +110,10 @@ void read_granular(Tokens &w, PairCoeff &coeff)
   all.erase(std::remove_if(all.begin(), all.end(), is_none), all.end());
   const auto is_damping = [](const GivenSubModel &g) { return g.row->family == Family::damping; };
   if (std::any_of(all.begin(), all.end(), is_damping)) return;
+  LawDraft with_default = {granular_law(NormalModel::hooke)};
+  add_sub_model(*all.front().row, all.front().numbers, with_default);    // the normal sub-model
   for (const SubModel &row : sub_models())
-    if (row.family == Family::damping && row.name == std::string(LawDraft().damping_name))
+    if (row.family == Family::damping && row.name == std::string(with_default.damping_name))
       all.push_back({&row, {}});
 }
 

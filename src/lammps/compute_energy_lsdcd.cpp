@@ -26,6 +26,7 @@ using lsdcd::EnergyRow;
 
 namespace {
 
+constexpr int kSystem = 17;                         // the first element of the whole system, from 0
 constexpr double kOfSphere = 0.4, kOfDisc = 0.5;    // moments of inertia over m r^2
 
 // What fix nve/sphere does not tell: the moment of inertia with which it turns grains, over m r^2.
@@ -184,6 +185,8 @@ void ComputeEnergyLsdcd::compute_vector()
   *next++ = all.rows[EnergyRow::held];
   *next++ = all.lost();
   *next++ = all.rows[EnergyRow::drive];
+  *next++ = pairs.power(EnergyRow::plastic);
+  *next++ = pairs.rows[EnergyRow::plastic];
 }
 
 // A vector that a variable has asked for as the step began is of that time: LAMMPS has cleared its flag since.
@@ -192,7 +195,7 @@ double ComputeEnergyLsdcd::compute_scalar()
   invoked_scalar = update->ntimestep;
   const bool has_vector = (invoked_flag & INVOKED_VECTOR) && invoked_vector == update->ntimestep;
   if (!has_vector) compute_vector();
-  const double *const of = vector + size_vector - 5;
+  const double *const of = vector + kSystem;
   scalar = of[0] + of[1] + of[2] + of[3] - of[4];
   return scalar;
 }

@@ -8,6 +8,7 @@
 #include "law/submodels/damping.h"
 #include "law/submodels/heat.h"
 #include "law/submodels/normal.h"
+#include "law/submodels/plastic.h"
 #include "law/submodels/rolling.h"
 #include "law/submodels/tangential.h"
 #include "law/submodels/twisting.h"
@@ -36,6 +37,8 @@ struct ContactLaw {
   Real k_normal = 0;          // force/length (hooke), force/length^2 (others)
   Real modulus = 0;           // of the contact, 3/4 k_normal; force/length^2 (dmt, jkr)
   Real surface_energy = 0;    // energy/length^2 (dmt, jkr)
+  // The numbers of a normal sub-model that yields, in the order of its model (plastic.h). Its k_normal is 0.
+  Real plastic[kPlasticNumbers] = {};
 
   DampingModel damping = DampingModel::classic;
   Real eta = 0;    // see DampingModel
@@ -68,6 +71,8 @@ struct ContactLaw {
   bool is_classic() const { return damping == DampingModel::classic; }
   bool has_heat() const { return heat.is_on(); }
   bool is_adhesive() const { return facts_of(normal).is_adhesive; }
+  // Returns whether contacts yield, and keep how far.
+  bool yields() const { return facts_of(normal).yields; }
   // Returns whether the tangential spring shrinks as the contact unloads.
   bool rescales() const { return tangential >= TangentialModel::mindlin_rescale; }
   // Returns whether friction stretches a spring, in a law of `granular`.

@@ -6,6 +6,7 @@
 //   kVectors, kScalars how many vectors and scalars that has beside the shear displacement
 //   kBeyondContact, pull_off  does it act beyond contact, and up to what distance at radius 1?
 //   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
+//   kYields            does a contact keep how far it has yielded? Then the law has plastic_loss() and plastic_loss_at_end()
 //   kWholeArms         in a pair, is the arm of the tangential force the radius? Else it is less by half of the overlap.
 //   kMidpoint          can friction and slip be taken at the middle of the overlap (is_at_midpoint())? Else they are at the
 //                      radius
@@ -27,6 +28,7 @@
 #include "law/submodels/damping.h"
 #include "law/submodels/heat.h"
 #include "law/submodels/normal.h"
+#include "law/submodels/plastic.h"
 #include "law/submodels/rolling.h"
 #include "law/submodels/tangential.h"
 #include "law/submodels/twisting.h"
@@ -41,7 +43,7 @@ struct ContactModel {
   static constexpr bool kHistory = Tangential::kHistory;
   static constexpr int kVectors = 0, kScalars = 0, kExtra = 0;
   static constexpr bool kBeyondContact = false, kContactTorque = false, kHeat = false;
-  static constexpr bool kWholeArms = true, kMidpoint = false;
+  static constexpr bool kYields = false, kWholeArms = true, kMidpoint = false;
 
   Normal elastic;
   Damping damping;
@@ -116,7 +118,7 @@ struct AddedModel {
   static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory ? 1 : 0, kScalars = 0, kExtra = 3 * kVectors;
   static constexpr bool kBeyondContact = false, kContactTorque = true, kHeat = false;
-  static constexpr bool kWholeArms = true, kMidpoint = false;
+  static constexpr bool kYields = false, kWholeArms = true, kMidpoint = false;
 
   Base base;
   AnyRolling rolling;
@@ -185,12 +187,25 @@ enum class GranularSet {
   all          // those, and friction, rolling and cohesion as in LIGGGHTS
 };
 
+// Returns how many numbers a contact keeps for its normal force.
+template <class Normal>
+constexpr int scalars_of_normal()
+{
+  if constexpr (std::is_same_v<Normal, PlasticNormal>)
+    return Normal::kScalars;
+  else
+    return 0;
+}
+
 // The sub-models of `granular`, with the formulas of LAMMPS 4Jul2026.
 template <class Normal, bool kHistory_, GranularSet kSet>
 struct GranularModel {
   static constexpr bool kAll = kSet == GranularSet::all, kFull = kAll || kSet == GranularSet::full;
   static constexpr bool kHistory = kHistory_;
-  static constexpr int kVectors = kHistory && kFull ? 1 : 0, kScalars = 2 * kVectors;
+  static constexpr int kOfNormal = scalars_of_normal<Normal>();
+  static constexpr bool kYields = kOfNormal > 0;
+  static_assert(!kYields || kHistory, "a contact keeps how far it has yielded");
+  static constexpr int kVectors = kHistory && kFull ? 1 : 0, kScalars = 2 * kVectors + kOfNormal;
   static constexpr int kExtra = 3 * kVectors + kScalars;
   static constexpr bool kBeyondContact = Normal::kBeyondContact;
   static constexpr bool kContactTorque = (kHistory && kFull) || kAll, kHeat = kFull;
@@ -200,7 +215,7 @@ struct GranularModel {
   static_assert(SpringRolling::kAllStore, "a law without memory has no contact torque");
 
   // Places in ContactMemory::extra.
-  static constexpr int kRolled = 0, kRadius = 3, kTwist = 4;
+  static constexpr int kRolled = 0, kRadius = 3, kTwist = 4, kYielded = 5 * kVectors;
 
   Normal elastic;
   GranularDamping damping;
@@ -214,6 +229,8 @@ struct GranularModel {
 
   LSDCD_FN bool stores(int k) const
   {
+    if constexpr (kYields)
+      if (k >= 3 * kVectors) return elastic.stores(k - 3 * kVectors);
     return k == 0 ? rolling.stores_vector() : k == 1 ? tangential.rescale : twisting.is_on();
   }
   LSDCD_FN bool has_heat() const { return conduction.is_on(); }
@@ -227,13 +244,14 @@ struct GranularModel {
   {
     const Real a =
         uses_contact_radius || elastic.uses_contact_radius() ? elastic.contact_radius(c) : 0;
-    const Real f = elastic.force(c, a), gamma = damping.coefficient(c, a, f);
+    if constexpr (kYields) elastic.update(c, memory.extra + kYielded);
+    const Real f = normal_force(c, a, memory), gamma = damping_coefficient(c, a, f);
 
     FullForce out;
     out.normal = f - gamma * c.v_normal;
     if (limit_damping && out.normal < 0) out.normal = 0;
-    out.energy = elastic.energy(c, a);
-    const Real limit = elastic.limit(c, f, out.normal);
+    out.energy = energy_of_normal(c, a, memory);
+    const Real limit = limit_of(c, f, out.normal, memory);
 
     out.tangential = friction(c, a, gamma, tangential.mu * limit, memory);
     if constexpr (kHistory) out.energy += tangential.energy(a, memory);
@@ -259,20 +277,110 @@ struct GranularModel {
     return out;
   }
 
-  // Returns the energy that the normal force of a contact would hold at this overlap.
+  // Return the energy that the normal force of a contact would hold at this overlap. A contact that yields first goes there with what it
+  // keeps; without `memory` it keeps nothing.
   template <class C>
-  LSDCD_FN Real normal_energy(C c, Real overlap) const
+  LSDCD_FN Real normal_energy(C c, Real overlap, ContactMemory<kExtra> memory) const
   {
     c.overlap = overlap;
-    Real held = elastic.energy(c, elastic.contact_radius(c));
+    if constexpr (kYields) elastic.update(c, memory.extra + kYielded);
+    Real held = energy_of_normal(c, elastic.contact_radius(c), memory);
     if constexpr (kAll)
       if (cohesion.is_on() && overlap > 0) held += cohesion.energy(c);
     return held;
+  }
+  template <class C>
+  LSDCD_FN Real normal_energy(const C &c, Real overlap) const
+  {
+    return normal_energy(c, overlap, ContactMemory<kExtra>{});
+  }
+  // Returns the energy that a contact loses in a step by yielding and on its adhesive branch, with what it keeps before and after. A
+  // contact that begins in overlap has yielded before.
+  template <class C>
+  LSDCD_FN Real plastic_loss(const C &c, ContactMemory<kExtra> begun,
+                             const ContactMemory<kExtra> &memory) const
+  {
+    const Real before = c.overlap + c.dt * c.v_normal;
+    Real *const own = begun.extra + kYielded;
+    if (own[0] == 0 && before > 0) {
+      C was = c;
+      was.overlap = before;
+      elastic.update(was, own);
+    }
+    return elastic.loss(c, own, before, memory.extra + kYielded);
+  }
+  // Returns the energy that a contact loses which parts with what it keeps, and whose overlap was `before`.
+  template <class C>
+  LSDCD_FN Real plastic_loss_at_end(const C &c, const ContactMemory<kExtra> &memory,
+                                    Real before) const
+  {
+    return elastic.loss_at_end(c, memory.extra + kYielded, before);
   }
   // Returns the parts of the force `out` that evaluate() has returned. `begun` and `memory`: what the contact keeps before and after.
   template <class C>
   LSDCD_FN ForceParts parts(const C &c, const ContactMemory<kExtra> &begun,
                             const ContactMemory<kExtra> &memory, const FullForce &out) const
+  {
+    if constexpr (kYields) {    // in a setup what it keeps has not moved
+      ContactMemory<kExtra> here = memory;
+      elastic.update(c, here.extra + kYielded);
+      return parts_at(c, begun, memory, here, out);
+    } else {
+      return parts_at(c, begun, memory, memory, out);
+    }
+  }
+  // Returns the spring of friction at a wall in a step.
+  LSDCD_FN SpringPart friction_spring(const Contact &c, const ContactMemory<kExtra> &begun,
+                                      const ContactMemory<kExtra> &memory) const
+  {
+    if (!tangential.spring) return {};
+    const Real a = tangential.by_radius || tangential.rescale ? elastic.contact_radius(c) : 0;
+    return tangential.part(c, a, begun, memory, kRadius, 0);    // the limit is for pairs alone
+  }
+
+ private:
+  // The following three functions are those of the normal model, which of a contact that yields reads what it keeps.
+  template <class C, class Memory>
+  LSDCD_FN Real normal_force(const C &c, [[maybe_unused]] Real a,
+                             [[maybe_unused]] const Memory &memory) const
+  {
+    if constexpr (kYields)
+      return elastic.force(c, memory.extra + kYielded);
+    else
+      return elastic.force(c, a);
+  }
+  template <class C, class Memory>
+  LSDCD_FN Real energy_of_normal(const C &c, [[maybe_unused]] Real a,
+                                 [[maybe_unused]] const Memory &memory) const
+  {
+    if constexpr (kYields)
+      return elastic.energy(c, memory.extra + kYielded);
+    else
+      return elastic.energy(c, a);
+  }
+  template <class C, class Memory>
+  LSDCD_FN Real limit_of(const C &c, Real f, Real normal,
+                         [[maybe_unused]] const Memory &memory) const
+  {
+    if constexpr (kYields)
+      return elastic.limit(c, f, normal, memory.extra + kYielded);
+    else
+      return elastic.limit(c, f, normal);
+  }
+  // Returns the coefficient of damping, which sees the stiffness of loading.
+  template <class C>
+  LSDCD_FN Real damping_coefficient(const C &c, Real a, Real f) const
+  {
+    if constexpr (kYields)
+      return damping.coefficient(c, a, elastic.secant(c, a) * c.overlap);
+    else
+      return damping.coefficient(c, a, f);
+  }
+  // Returns parts(). `here`: what the contact keeps for its normal force at this overlap.
+  template <class C>
+  LSDCD_FN ForceParts parts_at(const C &c, const ContactMemory<kExtra> &begun,
+                               const ContactMemory<kExtra> &memory,
+                               const ContactMemory<kExtra> &here, const FullForce &out) const
   {
     static_assert(kHistory && (kAll || kSet == GranularSet::either),
                   "the energy balance is of the laws with either friction");
@@ -281,8 +389,8 @@ struct GranularModel {
     Real pull = 0;
     if constexpr (kAll)
       if (cohesion.is_on() && c.overlap > 0) pull = cohesion.pull(c);
-    const Real f = elastic.force(c, a), gamma = damping.coefficient(c, a, f);
-    const Real limit = elastic.limit(c, f, out.normal + pull);
+    const Real f = normal_force(c, a, here), gamma = damping_coefficient(c, a, f);
+    const Real limit = limit_of(c, f, out.normal + pull, here);
     ForceParts parts = {};
     parts.elastic = f - pull;
     if (tangential.spring)
@@ -305,16 +413,6 @@ struct GranularModel {
     }
     return parts;
   }
-  // Returns the spring of friction at a wall in a step.
-  LSDCD_FN SpringPart friction_spring(const Contact &c, const ContactMemory<kExtra> &begun,
-                                      const ContactMemory<kExtra> &memory) const
-  {
-    if (!tangential.spring) return {};
-    const Real a = tangential.by_radius || tangential.rescale ? elastic.contact_radius(c) : 0;
-    return tangential.part(c, a, begun, memory, kRadius, 0);    // the limit is for pairs alone
-  }
-
- private:
   template <class C>
   LSDCD_FN Vec3 friction(const C &c, Real a, Real gamma, Real limit,
                          ContactMemory<kExtra> &memory) const

@@ -13,7 +13,7 @@ namespace lsdcd {
 
 namespace {
 
-// Returns a contact with an overlap of 1 % of the radius.
+// Return a contact with an overlap of 1 % of the radius, and one of 2 %.
 Contact shallow_contact(Real radius)
 {
   Contact c = {};
@@ -21,15 +21,21 @@ Contact shallow_contact(Real radius)
   c.radius = radius;
   return c;
 }
+Contact deep_contact(Real radius)
+{
+  Contact c = shallow_contact(radius);
+  c.overlap *= 2;
+  return c;
+}
 
 }    // namespace
 
 bool stiffens(const ContactLaw &law)
 {
-  const Contact c = shallow_contact(1);
-  return with_normal(law, [&c](const auto &normal) {
-    const Real a = normal.contact_radius(c);
-    return normal.tangent(c, a) > normal.secant(c, a);
+  const Contact c = shallow_contact(1), deeper = deep_contact(1);
+  return with_normal(law, [&](const auto &normal) {
+    return normal.tangent(deeper, normal.contact_radius(deeper)) >
+           normal.tangent(c, normal.contact_radius(c));
   });
 }
 

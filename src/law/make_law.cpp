@@ -6,6 +6,7 @@
 #include "base/input_words.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lsdcd {
 
@@ -39,6 +40,44 @@ bool rolls_with_part_of_critical(const ContactLaw &law)
       break;
   }
   return law.rolling.numbers[1] != 0;
+}
+
+// Throws LawError where the numbers of a normal sub-model that yields, or its damping, do not go together.
+void check_yielding(const LawDraft &d)
+{
+  const ContactLaw &law = d.law;
+  const std::string name = "'" + std::string(d.normal_name) + "'";
+  const Real *const n = law.plastic;
+  switch (law.normal) {
+    case NormalModel::hysteretic:
+    case NormalModel::hysteretic_size:
+    case NormalModel::hysteretic_edem:
+      if (law.damping != DampingModel::none)
+        throw LawError("damping", name +
+                                      " has no number for a damping, as its e is that of yielding: "
+                                      "leave the damping out, or write 'damping none'");
+      return;
+    case NormalModel::eepa:
+      if (n[3] != 1 && n[3] != 1.5)
+        throw LawError("normal", "n = " + number_text(n[3]) + ", which must be 1 or 1.5");
+      if (2 * n[4] != std::floor(2 * n[4]))
+        throw LawError("normal",
+                       "chi = " + number_text(n[4]) +
+                           ", which must be a multiple of 0.5: 1, 1.5, 2 and so on, up to 10");
+      if (d.damping_name == std::string("tsuji"))
+        throw LawError("damping", "tsuji is a fit for Hertz contacts: write 'damping "
+                                  "coeff_restitution', which " +
+                                      name + " has by default");
+      return;
+    case NormalModel::lepa:
+      if (n[1] < n[0])
+        throw LawError("normal", "kp = " + number_text(n[1]) +
+                                     " is below k1 = " + number_text(n[0]) +
+                                     ": unloading cannot be softer than loading");
+      return;
+    default:
+      return;
+  }
 }
 
 template <class Model>
@@ -83,6 +122,7 @@ void finish_granular(LawDraft &d)
   if (law.rolling.model == RollingModel::epsd2 && !law.has_spring())
     throw LawError("rolling", "epsd2 has the stiffness of the tangential sub-model: take one with "
                               "a history, or epsd");
+  check_yielding(d);
   // The damping says what the second number of the normal sub-model is.
   law.eta = d.second;
   if (law.damping != DampingModel::stiffness) return;

@@ -15,7 +15,8 @@ namespace lsdcd {
 // Sub-models that do not go together.
 struct LawError : InputError {
   LawError(const std::string &field, const std::string &text) : InputError(text), field(field) {}
-  std::string field;    // "damping", "limit_damping" or "rolling": which of them to change
+  std::string
+      field;    // "normal", "damping", "limit_damping" or "rolling": which of them to change
 };
 
 // Adds a sub-model to the draft. `given`: a number for each parameter, NaN where it is derived.

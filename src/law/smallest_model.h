@@ -89,7 +89,8 @@ GranularModel<Normal, kHistory, kSet> granular_model(const ContactLaw &p, const 
 // Returns a normal sub-model whose formulas are in TouchingNormal, with its numbers.
 inline TouchingNormal touching_normal(const ContactLaw &p)
 {
-  if (p.is(NormalModel::jkr)) throw std::logic_error("this normal sub-model acts beyond touch");
+  if (p.is(NormalModel::jkr) || p.yields())
+    throw std::logic_error("this normal sub-model acts beyond touch, or yields");
   return {p.normal, p.k_normal, p.is_adhesive() ? 4 * kPi * p.surface_energy : 0};
 }
 
@@ -98,10 +99,21 @@ inline JkrNormal jkr_normal(const ContactLaw &p)
   return JkrNormal(p.modulus, p.surface_energy);
 }
 
+// Returns a normal sub-model that yields, with its numbers.
+inline PlasticNormal plastic_normal(const ContactLaw &p)
+{
+  if (!PlasticNormal::has(p.normal))
+    throw std::logic_error("no compiled law has this normal sub-model: name it in plastic.h");
+  PlasticNormal normal = {p.normal, {}};
+  for (int k = 0; k < kPlasticNumbers; k++) normal.numbers[k] = p.plastic[k];
+  return normal;
+}
+
 // Calls act(normal) with the normal sub-model of a law, with the numbers of `granular`.
 template <class Act>
 auto with_normal(const ContactLaw &p, const Act &act)
 {
+  if (p.yields()) return act(plastic_normal(p));
   return p.is(NormalModel::jkr) ? act(jkr_normal(p)) : act(touching_normal(p));
 }
 
@@ -141,12 +153,20 @@ auto with_granular_added_law(const ContactLaw &p, const Make &make)
   return with_granular_sets<GranularSet::midpoint, GranularSet::all>(p, make);
 }
 
+// Calls make(law) with the law of `granular` whose contacts yield. There is one, with all sub-models.
+template <class Make>
+auto with_plastic_law(const ContactLaw &p, const Make &make)
+{
+  return make(granular_model<true, GranularSet::all>(p, plastic_normal(p)));
+}
+
 // Calls make(law) for any law that keeps_forces or keeps_touch. Few laws are compiled with energy balance and impacts: for `granular` one
 // without the sub-models that few scenes use, and one that has all.
 template <class Make>
 auto with_energy_law(const ContactLaw &p, const Make &make)
 {
   if (!p.is_classic()) {
+    if (p.yields()) return with_plastic_law(p, make);
     if (p.is(NormalModel::jkr))
       return make(granular_model<true, GranularSet::all>(p, jkr_normal(p)));
     const TouchingNormal normal = touching_normal(p);

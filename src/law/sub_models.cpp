@@ -25,6 +25,11 @@ constexpr Parameter kMindlin = {"kt", "force/length^2", 0, Tokens::kHuge, true};
 constexpr Parameter kMindlinDashpot = {"xgammat", "1", 0, Tokens::kHuge, true};
 constexpr Parameter kRollingFriction = {"mu", "1", 0, Tokens::kHuge, false, "rolling_friction"};
 constexpr Parameter kRollingDamping = {"damping", "1", 0, Tokens::kHuge, false, "rolling_damping"};
+constexpr Parameter in_series(const char *name, const char *unit)
+{
+  return {name, unit, kAboveZero, Tokens::kHuge, false, nullptr, false, Mixing::series};
+}
+constexpr Parameter kOwnRestitution = {"e", "1", kAboveZero, 1};
 constexpr Parameter kMuRolling = {"MU", "1", 0, Tokens::kHuge, false, "rolling_friction"};
 
 std::vector<Parameter> classic_numbers(const char *stiffness, const char *damping)
@@ -70,6 +75,36 @@ void set_material(const Real *n, LawDraft &d)
   if (model != NormalModel::hertz) d.law.surface_energy = n[3];
 }
 
+// A normal sub-model that yields, whose numbers are those of its model (plastic.h), in the order of the row. kSecond: the second
+// number is that of the damping, and the others are the model's. kFactor: of the first number.
+template <NormalModel model, bool kSecond, DampingModel damping, int kFactor>
+void set_plastic(const Real *n, LawDraft &d)
+{
+  d.law.normal = model;
+  d.law.damping = damping;
+  d.damping_name = damping == DampingModel::stiffness  ? "coeff_restitution"
+                   : damping == DampingModel::velocity ? "velocity"
+                                                       : "none";
+  Real *const to = d.law.plastic;
+  if (!kSecond) {
+    to[0] = kFactor * n[0];
+    to[1] = n[1];
+    return;
+  }
+  d.second = n[1];
+  to[0] = n[0];
+  for (int k = 1; k < (model == NormalModel::eepa ? 6 : 4); k++) to[k] = n[k + 1];
+  if (model == NormalModel::eepa) to[1] = n[0] / (1 - n[2]);    // k2, of the plasticity ratio
+}
+
+void set_thornton(const Real *n, LawDraft &d)
+{
+  set_material<NormalModel::hertz>(n, d);
+  d.law.normal = NormalModel::thornton;
+  d.law.plastic[0] = d.law.modulus;
+  d.law.plastic[1] = n[3];
+}
+
 template <DampingModel model>
 void set_damping(const Real *, LawDraft &d)
 {
@@ -105,6 +140,7 @@ constexpr int at(Enum model)
 }
 
 constexpr Stored kNothing = {};
+constexpr Stored kPlasticOverlap = {"plastic overlap", 1};
 constexpr Stored kShear = {"shear displacement"}, kShearForce = {"shear force"};
 
 enum Style { hooke, hooke_history, hertz_history };
@@ -145,6 +181,31 @@ std::vector<SubModel> make_table()
       {F::normal, "jkr", at(N::jkr), {kYoung, kEtaAlone, kPoisson, kSurfaceEnergy},
        set_material<N::jkr>, kNothing, "jkr adhesion",
        "adhesion that holds past touch (Johnson, Kendall and Roberts 1971)"},
+
+      {F::normal, "hysteretic", at(N::hysteretic), {in_series("k1", "force/length"), kOwnRestitution},
+       set_plastic<N::hysteretic, false, D::none, 1>, kPlasticOverlap, "yielding",
+       "spring that unloads stiffer, with a restitution e at all speeds (Walton and Braun 1986; Rocky)"},
+      {F::normal, "hysteretic/size", at(N::hysteretic_size), {in_series("Y", "pressure"), kOwnRestitution},
+       set_plastic<N::hysteretic_size, false, D::none, 2>, kPlasticOverlap, "yielding",
+       "hysteretic with k1 = 2 Y R (Rocky)"},
+      {F::normal, "hysteretic/edem", at(N::hysteretic_edem), {{"Y", "pressure", kAboveZero,
+       Tokens::kHuge, false, nullptr, false, Mixing::least}, kOwnRestitution},
+       set_plastic<N::hysteretic_edem, false, D::none, 5>, kPlasticOverlap, "yielding",
+       "hysteretic with k1 = 5 Y R, of the lesser yield strength (EDEM)"},
+      {F::normal, "eepa", at(N::eepa), {in_series("k1", "force/length^n"), kEta, {"lambda", "1",
+       0, 1 - 1e-12}, kSurfaceEnergy, {"n", "1 or 1.5", 1, 1.5, false, nullptr, false, Mixing::equal},
+       {"chi", "multiple of 0.5", 1, 10, false, nullptr, false, Mixing::equal},
+       {"f0", "force", -Tokens::kHuge, 0}}, set_plastic<N::eepa, true, D::stiffness, 1>,
+       {"plastic overlap of eepa, adhesive slope", 2}, "yielding and adhesion",
+       "elasto-plastic adhesion (Edinburgh: Thakur et al. 2014; EDEM)"},
+      {F::normal, "lepa", at(N::lepa), {in_series("k1", "force/length"), kEtaAlone,
+       in_series("kp", "force/length"), {"kc", "force/length", 0, Tokens::kHuge, false, nullptr, false,
+       Mixing::series}, {"phi", "1", kAboveZero, 1}}, set_plastic<N::lepa, true, D::velocity, 1>,
+       {"greatest overlap of lepa", 1}, "yielding and adhesion",
+       "linear elasto-plastic adhesion (Luding 2008)"},
+      {F::normal, "thornton", at(N::thornton), {kYoung, kEtaAlone, kPoisson, {"py", "pressure",
+       kAboveZero, Tokens::kHuge, false, nullptr, false, Mixing::least}}, set_thornton,
+       {"greatest overlap of thornton", 1}, "yielding", "elastic, perfectly plastic sphere (Thornton 1997)"},
 
       {F::damping, "none", at(D::none), {}, set_damping<D::none>, kNothing, "", "none"},
       {F::damping, "velocity", at(D::velocity), {}, set_damping<D::velocity>, kNothing,

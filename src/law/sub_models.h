@@ -14,6 +14,14 @@ namespace lsdcd {
 
 enum class Family { style, normal, damping, tangential, rolling, twisting, heat, cohesion };
 
+// How the number of two types that have no law together follows from those of each.
+enum class Mixing {
+  geometric,    // sqrt(a b)
+  series,       // 2 a b/(a + b): two springs one behind the other
+  least,
+  equal    // two that differ cannot be mixed
+};
+
 // A number that a script gives.
 struct Parameter {
   const char *name;
@@ -22,6 +30,7 @@ struct Parameter {
   bool may_be_null = false;          // NULL: derived from the numbers before it
   const char *property = nullptr;    // its name in a material file, if it is there
   bool is_flag = false;              // 0 or 1
+  Mixing mixing = Mixing::geometric;
 };
 
 // Numbers that a contact stores from step to step.

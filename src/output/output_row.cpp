@@ -90,8 +90,12 @@ const std::vector<OutputRow> &energy_outputs()
       {1, "gravity_energy", "", "potential energy by fix gravity", "energy"},
       {1, "all_held_energy", "", "elastic energy of all contacts, those with walls included",
        "energy"},
-      {1, "all_lost", "", "all that is lost: elements 6-14, and the same of walls", "energy"},
+      {1, "all_lost", "", "all that is lost: elements 6-14 and 24, and the same of walls",
+       "energy"},
       {1, "drive_work", "", "work of the moving meshes and their surfaces on the grains", "energy"},
+      {1, "dissipated_power_plastic", "",
+       "power that contacts between grains dissipate by yielding", "energy/time"},
+      {1, "dissipated_plastic", "", "likewise energy since the beginning", "energy"},
       {1, "balance", "",
        "the scalar: 18 + 19 + 20 + 21 less 22, which keeps its value but for the remainders",
        "energy"}};

@@ -13,6 +13,7 @@ namespace lsdcd {
 // (laws/CMakeLists.txt).
 PairLaw granular_pair(const ContactLaw &law);
 PairLaw granular_added_pair(const ContactLaw &law);
+PairLaw plastic_pair(const ContactLaw &law);
 PairLaw added_pair(const ContactLaw &law);
 PairLaw classic_pair(const ContactLaw &law);
 

@@ -292,7 +292,8 @@ PairLaw compiled_pair(const Law &law, Real pull_off)
   if constexpr (Law::kHeat) out.has_heat = law.has_heat();
   if constexpr (Law::kHistory) out.stored = stored_numbers(law);
 #if defined(LSDCD_WIDE_PAIRS)
-  if constexpr (!Law::kBeyondContact) {    // whose contact radius is found by iteration
+  // Others find their contact radius by iteration, or have a branch for each model that yields.
+  if constexpr (!Law::kBeyondContact && !Law::kYields) {
     set_wide_of(law, out);
     out.prepare = prepare_lanes<Law>;
     out.choices = choices_of(law);

@@ -4,6 +4,7 @@
 #include "pair/pair_coeff.h"
 
 #include "base/input_error.h"
+#include "base/number_words.h"
 #include "law/make_law.h"
 #include "material/contact_moduli.h"
 
@@ -33,17 +34,30 @@ bool has_materials(const SubModel &row)
   return row.family == Family::normal && std::strcmp(row.parameters[0].name, "E") == 0;
 }
 
-// sqrt(a b); a number that is derived makes one that is.
-Real geometric(Real a, Real b)
+// Returns a number of two types. One that is derived makes one that is.
+Real mixed(Real a, Real b, const Parameter &p, const std::string &types)
 {
-  return a == b ? a : std::sqrt(a * b);
+  if (a == b) return a;
+  switch (p.mixing) {
+    case Mixing::series:
+      return a + b > 0 ? 2 * a * b / (a + b) : 0;
+    case Mixing::least:
+      return std::min(a, b);
+    case Mixing::equal:
+      throw InputError("the laws of types " + types + " cannot be mixed, as " + p.name + " is " +
+                       number_text(a) + " and " + number_text(b) +
+                       ": give the law of this pair of types by pair_coeff");
+    case Mixing::geometric:
+      break;
+  }
+  return a < 0 || b < 0 ? -std::sqrt(a * b) : std::sqrt(a * b);
 }
 
-GivenSubModel mixed(const GivenSubModel &a, const GivenSubModel &b)
+GivenSubModel mixed(const GivenSubModel &a, const GivenSubModel &b, const std::string &types)
 {
   GivenSubModel made = a;
   for (std::size_t k = 0; k < made.numbers.size(); k++)
-    made.numbers[k] = geometric(a.numbers[k], b.numbers[k]);
+    made.numbers[k] = mixed(a.numbers[k], b.numbers[k], a.row->parameters[k], types);
   if (!has_materials(*a.row)) return made;
   const Elastic of_a = {a.numbers[0], a.numbers[2]}, of_b = {b.numbers[0], b.numbers[2]};
   if (of_a.youngs_modulus == of_b.youngs_modulus && of_a.poissons_ratio == of_b.poissons_ratio)
@@ -104,7 +118,7 @@ PairCoeff mixed(const PairCoeff &a, const PairCoeff &b, const std::string &types
                        " and the other has " +
                        (of_b ? syntax_of(*of_b->row) : std::string("none")) +
                        ": give the law of this pair of types by pair_coeff");
-    made.sub_models.push_back(mixed(*of_a, *of_b));
+    made.sub_models.push_back(mixed(*of_a, *of_b, types));
   }
   made.limit_damping = a.limit_damping || b.limit_damping;
   made.cutoff = std::max(a.cutoff, b.cutoff);

@@ -27,7 +27,7 @@ ContactLaw law_of(const PairCoeff &coeff);
 std::string text_of(const PairCoeff &coeff);
 
 // Returns the law of two types that have no law together, mixed as LAMMPS intends: E* and G* of the two materials; for any
-// other number the geometric mean; for a number that is derived on one side, one that is derived. Throws InputError if the
+// other number the mean that its row says (Mixing), which for most is the geometric one; for a number that is derived on one side, one that is derived. Throws InputError if the
 // sub-models differ. `types`: the name of the pair in messages.
 PairCoeff mixed(const PairCoeff &a, const PairCoeff &b, const std::string &types);
 

@@ -101,6 +101,14 @@ LSDCD_FN void book_old_pair(const Law &law, const GrainPair &p, const PairNumber
         law.normal_energy(c, c.radius - cutoff_of(c.radius, law.elastic.pull_off));
   }
   book_springs_at_end(law, old, m.n, m.slip, rolling, twisting, p.dt, rows);
+  if constexpr (Law::kYields) {
+    PairContact c = {};
+    c.radius_i = p.radius_i;
+    c.radius_j = p.radius_j;
+    c.radius = p.radius_i * p.radius_j / (p.radius_i + p.radius_j);
+    const Real before = p.radius_i + p.radius_j - norm(p.offset - p.dt * p.velocity);
+    rows[EnergyRow::plastic] += law.plastic_loss_at_end(c, read_memory(law, numbers), before);
+  }
 }
 
 // Adds the energy with which a pair begins that did not touch before. Grains that adhere jump into contact when they touch; grains
@@ -167,7 +175,7 @@ LSDCD_FN void book_new_pair(const Law &law, const MakePair &make_pair,
     }
   }
   KeptForces now = kept_of(law, c.normal, f, parts, slaves_spring(c, parts, old), 1, 0, 0);
-  now.held = held_of(law, c, f, 1, now);
+  now.held = held_of(law, c, f, memory, 1, now);
   write_kept(now, numbers, of_law);
   rows[EnergyRow::held] += now.held;
   if (!c.update) return;
@@ -176,6 +184,7 @@ LSDCD_FN void book_new_pair(const Law &law, const MakePair &make_pair,
   add_pair_half(law, pair_motion(law, p, p.offset), now, p.dt, rows);
   if (!old_numbers) begin_pair(law, p, c, rows);
   book_springs(law, c, parts, 1, now, old, rows);
+  if constexpr (Law::kYields) rows[EnergyRow::plastic] += law.plastic_loss(c, begun, memory);
 }
 
 // Returns whether pairs with this law add to a row.
@@ -183,6 +192,7 @@ template <class Law>
 LSDCD_FN constexpr bool books_row(EnergyRow row)
 {
   if (row == EnergyRow::drive || row == EnergyRow::wear) return false;
+  if (row == EnergyRow::plastic) return Law::kYields;
   if (row == EnergyRow::rolling || row == EnergyRow::twisting) return Law::kContactTorque;
   return row != EnergyRow::adhesion || Law::kBeyondContact;
 }

@@ -15,7 +15,7 @@ constexpr int kLanes = 32, kLaneChoices = 13;
 constexpr int kMoreLanes =
     7;    // so many lanes after the last pair are computed, too, so that all vectors are full
 constexpr int kLaneNumbers =
-    8;    // the shear displacement, and what the laws with most numbers have in addition
+    10;    // the shear displacement, and what the laws with most numbers have in addition
 
 using Lane = Real[kLanes];
 

@@ -83,11 +83,11 @@ struct PairResult {
 
 // Of a pair that waits what it has kept, in the order of the history, and then its force and torques.
 struct PairRecord {
-  Real numbers[9];
+  Real numbers[10];
 
   PairRecord() {}    // an array of them takes memory alone
 };
-static_assert(kLaneNumbers <= 9, "a record has room for what a pair keeps");
+static_assert(kLaneNumbers <= 10, "a record has room for what a pair keeps");
 
 // kOne: all types have one law.
 template <bool kOne>

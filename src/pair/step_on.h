@@ -342,6 +342,8 @@ PairLawOn<B> granular_pair_on(const ContactLaw &law);
 template <class B>
 PairLawOn<B> granular_added_pair_on(const ContactLaw &law);
 template <class B>
+PairLawOn<B> plastic_pair_on(const ContactLaw &law);
+template <class B>
 PairLawOn<B> added_pair_on(const ContactLaw &law);
 template <class B>
 PairLawOn<B> classic_pair_on(const ContactLaw &law);
@@ -350,6 +352,7 @@ template <class B>
 PairLawOn<B> pair_law_on(const ContactLaw &law)
 {
   if (law.is_classic()) return law.is_extended() ? added_pair_on<B>(law) : classic_pair_on<B>(law);
+  if (law.yields()) return plastic_pair_on<B>(law);
   return law.is_extended() ? granular_added_pair_on<B>(law) : granular_pair_on<B>(law);
 }
 

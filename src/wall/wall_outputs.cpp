@@ -167,6 +167,11 @@ Real sum_of(const BookedEnergy &e, int /* d */)
 {
   return e.rows[row];
 }
+template <EnergyRow row>
+Real power_of(const BookedEnergy &e, int /* d */)
+{
+  return e.power(row);
+}
 Real remainder(const BookedEnergy &e, int /* d */)
 {
   return e.remainder();
@@ -206,6 +211,16 @@ bool has_motion(const MeshSpec &m)
   return m.motion.moves() || m.motion.start().placed || !m.motion.stopped().empty();
 }
 
+// Returns whether a law of the wall, all of which have the same sub-models, yields.
+bool yields(const WallSpec &wall)
+{
+  const auto one_does = [](const std::vector<LawOfTypes> &laws) {
+    return !laws.empty() && laws.front().law.yields();
+  };
+  return one_does(wall.laws) || std::any_of(wall.meshes.begin(), wall.meshes.end(),
+                                            [&](const MeshSpec &m) { return one_does(m.laws); });
+}
+
 bool has(const WallSpec &wall, OutputPart part)
 {
   const auto any = [&](bool (*of)(const MeshSpec &)) {
@@ -220,6 +235,8 @@ bool has(const WallSpec &wall, OutputPart part)
       return wall.wear_deform.every > 0;
     case OutputPart::wear_energy:
       return wall.energy && wall.wear_deform.every > 0;
+    case OutputPart::plastic:
+      return wall.energy && yields(wall);
     case OutputPart::nodes:
       return wall.has_nodes();
     case OutputPart::means:
@@ -272,6 +289,8 @@ const char *keyword_of(OutputPart part)
       return "*impacts*";
     case OutputPart::wear_energy:
       return "*energy* with *wear ... deform*";
+    case OutputPart::plastic:
+      return "*energy* with a law that yields";
     default:
       return "";
   }
@@ -493,6 +512,20 @@ const std::vector<WallOutput> &wall_outputs()
        P::wear_energy,
        energy_of<sum_of<EnergyRow::wear>>,
        energy_of_all<sum_of<EnergyRow::wear>>},
+      {{1, "dissipated_power_plastic", one,
+        "power that contacts dissipate in the step by yielding, and on the adhesive branch of "
+        "those "
+        "that have",
+        "energy/time units"},
+       adds_up,
+       P::plastic,
+       energy_of<power_of<EnergyRow::plastic>>,
+       energy_of_all<power_of<EnergyRow::plastic>>},
+      {{1, "dissipated_plastic", one, "likewise energy since the beginning", "energy units"},
+       adds_up,
+       P::plastic,
+       energy_of<sum_of<EnergyRow::plastic>>,
+       energy_of_all<sum_of<EnergyRow::plastic>>},
       {{1, "elastic_energy", one,
         "elastic energy of overlaps and tangential springs, by the forces of the last step",
         "energy units"},

@@ -24,6 +24,7 @@ enum class OutputPart {
   energy,
   impacts,
   wear_energy,
+  plastic,
   scalar    // the fix's scalar, which is no column
 };
 

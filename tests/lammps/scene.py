@@ -35,6 +35,9 @@ def bumpy_floor(folder):
 # and adhesion past touch.
 GRANULAR = ("granular jkr 1e5 700 0.3 0.3 tangential mindlin_rescale/force NULL 0.6 0.4 "
             "rolling sds 2e3 5 0.1 twisting marshall")
+# That, of a contact that yields.
+YIELDING = ("granular eepa 1e5 0.8 0.6 100 1.5 2.5 -0.1 tangential linear_history 4e3 0.6 0.4 "
+            "rolling sds 2e3 5 0.1 twisting sds 30 1 0.1")
 
 SETTINGS = lmp.head(modify="map array sort 40 1.5")
 

@@ -27,7 +27,7 @@ LAWS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
         "hertz_history": "hertz/history 1e5 NULL 50 NULL 0.5 1",
         "hertz_history_epsd2": "hertz/history 1e5 NULL 50 NULL 0.5 1 rolling epsd2 0.1",
         "granular_dmt": "granular dmt 1e5 50 0.3 100 tangential mindlin NULL 1.0 0.5",
-        "granular_jkr": scene.GRANULAR}
+        "granular_jkr": scene.GRANULAR, "granular_eepa": scene.YIELDING}
 PLAIN = ()    # flags: without Kokkos
 TAKEN_OUT = """\
 region          corner block -6 0 -6 0 INF INF

@@ -190,7 +190,8 @@ CLOUD_LAWS = (
     "hertz/material 5e5 0.3 0.3 tangential mindlin NULL 1 0.4 damping tsuji rolling sds 1e3 1 0.1 twisting marshall",
     "hertz/material 5e5 0.3 0.3 tangential mindlin_rescale/force NULL 1 0.4 damping coeff_restitution limit_damping",
     "hertz/material 5e5 0.3 0.3 tangential mindlin_liggghts NULL 1 0.4 damping tsuji rolling epsd 0.1 0.1",
-    f"jkr 5e5 5 0.3 30 {PLAIN} damping viscoelastic")
+    f"jkr 5e5 5 0.3 30 {PLAIN} damping viscoelastic",
+    f"hysteretic 1e5 0.7 {PLAIN} rolling epsd2 0.1", f"eepa 4e5 0.8 0.5 30 1.5 2 0 {PLAIN} rolling sds 1e3 1 0.1")
 
 
 def cloud(folder, law, dt, run, ranks=1, newton="off", head=CLOUD_HEAD):
@@ -228,7 +229,7 @@ def same(name, book, wanted, tolerance=1e-12):
 TOLERANCE = 1e-9
 
 
-@pytest.mark.parametrize("law", (CLOUD_LAWS[1], CLOUD_LAWS[3], CLOUD_LAWS[7]))
+@pytest.mark.parametrize("law", (CLOUD_LAWS[1], CLOUD_LAWS[3], CLOUD_LAWS[7], CLOUD_LAWS[9]))
 def test_processes_and_restart(folder, law):
     """With newton on and off, on 1 and 4 processes, and after a restart in the middle the books are the same. Lists are made anew as grains
     move, and grains go to other processes."""

@@ -21,6 +21,7 @@ from facts import at_most, fact
 LAWS = {"hooke_history": "hooke/history 1e4 NULL 120 NULL 0.4 1",
         "hertz_history": "hertz/history 1e5 NULL 1500 NULL 0.4 1",
         "granular": scene.GRANULAR,
+        "yielding": scene.YIELDING,
         "mindlin_slip": "granular hooke 1e4 120 damping mass_velocity tangential mindlin_slip 2e4 0.6 0.4",
         "hooke": "hooke 1e4 NULL 120 NULL 0.4 1"}
 UNDAMPED = "hooke/history 1e4 NULL 0 NULL 0.4 0"

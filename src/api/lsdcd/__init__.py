@@ -641,6 +641,8 @@ class WallTotals(_Record):
     impacts: float        # number since the first step, of a wall with `impacts`
     impact_energy: float  # sum of m v^2/2, with the speed along the normal
     lost_wear: float      # energy that contacts lose as wear moves the mesh, of a wall with `energy` and `wear ... deform`
+    dissipated_power_plastic: float    # by yielding, of a wall with `energy` and a law that yields, in the step
+    dissipated_plastic: float    # likewise energy since the first step
     elastic_energy: float    # of overlaps and tangential springs, by the forces of the step
 
 
@@ -655,6 +657,8 @@ class WallContacts(_Record):
     dissipated_power: NDArray[np.float64]   # (n, 5) by cause, in the last step
     dissipated: NDArray[np.float64]         # (n, 5) energy by cause, since the contact began
     has_ended: NDArray[np.int32]   # (n,) 1: the sphere touched there in the step before, and no more; `point` is where it was
+    dissipated_power_plastic: NDArray[np.float64]    # (n,) by yielding, in the last step
+    dissipated_plastic: NDArray[np.float64]          # (n,) by yielding, since the contact began
 
 
 class WallImpacts(_Record):
@@ -1011,7 +1015,8 @@ class Wall(_Owner):
         n = ask.room = ask.contacts
         found = WallContacts(sphere=np.empty(n, np.intp), mesh=np.empty(n, np.int32), force=np.empty((n, 3)),
                              point=np.empty((n, 3)), overlap=np.empty(n), dissipated_power=np.empty((n, 5)),
-                             dissipated=np.empty((n, 5)), has_ended=np.empty(n, np.int32))
+                             dissipated=np.empty((n, 5)), has_ended=np.empty(n, np.int32),
+                             dissipated_power_plastic=np.empty(n), dissipated_plastic=np.empty(n))
         for name, array in vars(found).items():
             setattr(ask, name, array.ctypes.data)
         self._do(_lib.lsdcd_wall_get_contacts, self._handle, ctypes.byref(ask))

@@ -69,6 +69,7 @@ enum class EnergyRow {
   rolling,    // rolling and twisting resistance: dashpot and slider
   twisting,
   adhesion,    // of surfaces that jump into contact, less that of surfaces that let go
+  plastic,     // of contacts that yield, and on the adhesive branch of those that have
   lever_arms,    // a wall that turns sees friction at the arm of the radius, the sphere at that of the law
   stiffness,         // springs whose stiffness changes while they are stretched
   turned_springs,    // springs that are transferred or turned
@@ -94,7 +95,7 @@ struct EnergyRows {
 LSDCD_FN Real dissipated(const EnergyRows &rows)
 {
   return rows[EnergyRow::damping] + rows[EnergyRow::slider] + rows[EnergyRow::rolling] +
-         rows[EnergyRow::twisting] + rows[EnergyRow::adhesion];
+         rows[EnergyRow::twisting] + rows[EnergyRow::adhesion] + rows[EnergyRow::plastic];
 }
 
 // The energy that is dissipated at a contact of this step, or of the last one.
@@ -106,7 +107,7 @@ struct EnergyRecord {
   Real impact, speed;
 };
 static_assert(kLossCauses ==
-                  static_cast<int>(EnergyRow::adhesion) - static_cast<int>(EnergyRow::damping) + 1,
+                  static_cast<int>(EnergyRow::plastic) - static_cast<int>(EnergyRow::damping) + 1,
               "causes are those of dissipated()");
 
 // A contact of the last step that has ended in this one.

@@ -152,15 +152,26 @@ LSDCD_FN KeptForces kept_of(const Law &, const Vec3 &n, const FullForce &f, cons
   return now;
 }
 
+// Returns the energy that the normal force of a contact would hold at this overlap, with what the contact keeps.
+template <class Law, class C>
+LSDCD_FN Real normal_energy_with(const Law &law, const C &c, Real overlap,
+                                 [[maybe_unused]] const ContactMemory<Law::kExtra> &memory)
+{
+  if constexpr (Law::kYields)
+    return law.normal_energy(c, overlap, memory);
+  else
+    return law.normal_energy(c, overlap);
+}
+
 // Returns the elastic energy that a contact holds. In a setup the limits of friction cut forces, but springs stay as they are. A spring
 // that is no store holds none.
 template <class Law, class C>
-LSDCD_FN Real held_of(const Law &law, const C &c, const FullForce &f, Real weight,
-                      const KeptForces &now)
+LSDCD_FN Real held_of(const Law &law, const C &c, const FullForce &f,
+                      const ContactMemory<Law::kExtra> &memory, Real weight, const KeptForces &now)
 {
   return c.update && !now.is_slaved()
              ? weight * f.energy
-             : weight * law.normal_energy(c, c.overlap) + springs_energy<Law>(now);
+             : weight * normal_energy_with(law, c, c.overlap, memory) + springs_energy<Law>(now);
 }
 
 // Add what sliding loses; the second function also adds what rolling and twisting lose.
@@ -256,7 +267,7 @@ struct EnergyBook {
     if (in.from >= 0) old = handed_on(law, settings, s, in, n);
     KeptForces now =
         kept_of(law, n, b.f, b.parts, slaves_spring(c, b.parts, old), b.weight, b.distance, b.arm);
-    now.held = held_of(law, c, b.f, b.weight, now);
+    now.held = held_of(law, c, b.f, b.memory, b.weight, now);
     memcpy(to + n_extra(law), &now, sizeof now);
     if constexpr (Law::kMayKeepAtNodes)
       if (law.keeps_at_nodes) {
@@ -277,6 +288,8 @@ struct EnergyBook {
     add_half(m, n, now, c.dt);
     if (settings.receded) recede(wall, b.feature, s.x - b.distance * n, settings.receded, n, now);
     book_springs(law, c, b.parts, b.weight, now, old, rows);
+    if constexpr (Law::kYields)
+      rows[EnergyRow::plastic] += b.weight * law.plastic_loss(c, b.before, b.memory);
   }
 
   // Adds the second half of the last step's contacts with this mesh, and the rest of those that have ended.
@@ -309,7 +322,10 @@ struct EnergyBook {
         recede(wall, feature, s.x - dt * m.v - old.distance * n, settings.receded, n, old);
       const Vec3 slip = m.slip(n, old.distance, old.arm), rolling = rolling_part(turn, n);
       const Real twisting = dot(turn, n);
-      if (!EnergyMarks::is_marked(marks.goes_on, k)) let_go(law, s, old);
+      if (!EnergyMarks::is_marked(marks.goes_on, k)) {
+        let_go(law, s, old);
+        if constexpr (Law::kYields) part(law, s, k, old, dt * dot(m.v, n));
+      }
       if (EnergyMarks::is_marked(marks.taken, k))
         rows[EnergyRow::turned_springs] += energy_left(law, old, slip, rolling, twisting, dt);
       else
@@ -496,6 +512,19 @@ struct EnergyBook {
       rows[EnergyRow::adhesion] +=
           old.weight * law.normal_energy(c, s.radius - cutoff_of(s.radius, law.elastic.pull_off));
     }
+  }
+  // Adds what contact k of the last step, which had yielded, loses on its adhesive branch as the sphere moves away by `away` and parts.
+  template <class Springs>
+  LSDCD_FN void part(const Law &law, const SphereStateWith<Springs> &s, int k,
+                     const KeptForces &old, Real away)
+  {
+    const Real before = s.radius - old.distance;
+    if (before > away) return;    // it has ended beside others
+    Contact c = {};
+    c.radius = s.radius;
+    rows[EnergyRow::plastic] +=
+        old.weight *
+        law.plastic_loss_at_end(c, stored_memory(law, s.extra + k * n_stored(law)), before);
   }
 };
 

@@ -101,11 +101,13 @@ struct BookingSink : SphereSink {
 template <class Law>
 using SinkOf = std::conditional_t<Law::kSetsUp, BookingSink<Law>, SphereSink>;
 
-// A contact as the energy balance reads it: arguments and result of the law, the parts of the force, and the weight of the contact.
+// A contact as the energy balance reads it: arguments and result of the law, what it keeps before and after, the parts of the force, and
+// the weight of the contact.
 template <class Law>
 struct BookedContact {
   Contact c;
   FullForce f;
+  const ContactMemory<Law::kExtra> &before, &memory;
   ForceParts parts;
   Real weight;
   Real distance,
@@ -182,6 +184,18 @@ struct MeshWork {
   ForceSettings settings;
 };
 
+// Returns the part of the k-th scalar of a contact that another one takes over with this part of its springs. How far a contact has yielded
+// goes over whole, or not at all: not in a fold, unless it shrinks to what the overlap beside the fold allows.
+template <class Law>
+LSDCD_FN Real part_of_scalar([[maybe_unused]] const Law &law, [[maybe_unused]] int k,
+                             const Transfer &in)
+{
+  if constexpr (Law::kYields)
+    if (k >= Law::kScalars - Law::kOfNormal)
+      return in.part > (law.elastic.heals() ? kMoved : kSameDirection) ? 1 : 0;
+  return in.part;
+}
+
 // Returns the memory of contact i at the start of the step: that of the last step, turned with the normal, and turned about the normal
 // with a surface that turns.
 template <class Law, class Set, class Springs>
@@ -209,7 +223,8 @@ LSDCD_FN auto memory_from_last_step(const Law &law, const ForceSettings &setting
           old += 3;
         }
       for (int k = 0; k < Law::kScalars; k++)
-        if (law.stores(Law::kVectors + k)) memory.extra[3 * Law::kVectors + k] = in.part * *old++;
+        if (law.stores(Law::kVectors + k))
+          memory.extra[3 * Law::kVectors + k] = part_of_scalar(law, k, in) * *old++;
     }
   }
   return memory;
@@ -224,6 +239,18 @@ LSDCD_FN void store_extra(const Law &law, const Memory &memory, Real *to)
       for (int j = 0; j < 3; j++) *to++ = memory.extra[3 * k + j];
   for (int k = 0; k < Law::kScalars; k++)
     if (law.stores(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
+}
+
+// Returns what store_extra() has written, without vectors of springs.
+template <class Law>
+LSDCD_FN ContactMemory<Law::kExtra> stored_memory(const Law &law, const Real *from)
+{
+  ContactMemory<Law::kExtra> memory = {};
+  for (int k = 0; k < Law::kVectors; k++)
+    if (law.stores(k)) from += 3;
+  for (int k = 0; k < Law::kScalars; k++)
+    if (law.stores(Law::kVectors + k)) memory.extra[3 * Law::kVectors + k] = *from++;
+  return memory;
 }
 
 // Returns whether a contact is on the feature, of this mesh of the wall, that had the spring which it takes over.
@@ -451,6 +478,8 @@ LSDCD_FN void book_contact(const GridView &grid, const Law &law, const ForceSett
   [[maybe_unused]] const Real slid_before = sink.book->rows[EnergyRow::slider];
   const BookedContact<Law> booked = {c,
                                      at.f,
+                                     at.before,
+                                     at.memory,
                                      law.parts(c, at.before, at.memory, at.f),
                                      at.weight,
                                      set.booked_distance(at.i, c),

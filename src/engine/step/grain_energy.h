@@ -84,7 +84,7 @@ void add_grain(EnergyBook<Law> &book, const Law &law, const MeshFeaturesView &wa
   if (in.from >= 0) old = EnergyBook<Law>::handed_on(law, settings, s, in, n);
   KeptForces now =
       kept_of(law, n, b.f, b.parts, slaves_spring(c, b.parts, old), b.weight, b.distance, b.arm);
-  now.held = held_of(law, c, b.f, b.weight, now);
+  now.held = held_of(law, c, b.f, b.memory, b.weight, now);
   now.rolling = cross(at.arm, (now.elastic + now.damping) * n + now.friction) + at.couple;
   memcpy(to + n_extra(law), &now, sizeof now);
   book.rows[EnergyRow::held] += now.held;

@@ -133,6 +133,7 @@ std::string why_not_for_shapes(const ContactLaw &law)
            ": the wall has it for spheres alone; grains of other shapes can have hooke and hertz "
            "with their damping and sliding friction";
   };
+  if (law.yields()) return refused("contacts that yield");
   if (law.is_adhesive()) return refused("adhesion");
   if (law.cohesion.is_on()) return refused("cohesion");
   if (law.rolling.is_on()) return refused("rolling resistance");

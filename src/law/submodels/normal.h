@@ -19,7 +19,18 @@
 
 namespace lsdcd {
 
-enum class NormalModel : ModelNumber { hooke, hertz, dmt, jkr };
+enum class NormalModel : ModelNumber {
+  hooke,
+  hertz,
+  dmt,
+  jkr,
+  hysteretic,
+  hysteretic_size,
+  hysteretic_edem,
+  eepa,
+  lepa,
+  thornton
+};
 
 // What is true of a model whatever its numbers are.
 struct NormalFacts {
@@ -27,6 +38,7 @@ struct NormalFacts {
   // The damping, per square root of mass times secant stiffness, with which nothing rebounds; that of a restitution is a known
   // part of it. 0: no damping returns a restitution at all speeds.
   Real no_rebound;
+  bool yields = false;    // does a contact keep how far it has yielded (plastic.h)?
 };
 inline NormalFacts facts_of(NormalModel model)
 {
@@ -38,6 +50,15 @@ inline NormalFacts facts_of(NormalModel model)
     case NormalModel::dmt:
     case NormalModel::jkr:
       return {true, 0};
+    case NormalModel::hysteretic:
+    case NormalModel::hysteretic_size:
+    case NormalModel::hysteretic_edem:
+    case NormalModel::thornton:
+      return {false, 0, true};
+    case NormalModel::eepa:
+      return {true, 2, true};
+    case NormalModel::lepa:
+      return {true, 0, true};
   }
   throw std::logic_error("facts_of (normal.h) has no case of this normal sub-model");
 }
