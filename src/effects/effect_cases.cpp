@@ -5,6 +5,9 @@
 
 #include "contact/spring.h"
 
+#include <algorithm>
+#include <array>
+
 namespace lsdcd {
 
 namespace {
@@ -102,6 +105,22 @@ std::vector<EffectCase> effect_cases()
   add("hertz", "granular hertz, hertz/material", "granular hooke", normal(NormalModel::hertz));
   add("dmt", "granular dmt", "hertz", normal(NormalModel::dmt));
   add("jkr", "granular jkr", "hertz", normal(NormalModel::jkr));
+  const auto yielding = [](NormalModel n, const std::array<Real, kPlasticNumbers> &numbers) {
+    return [n, numbers](EngineSettings &s) {
+      s.law().normal = n;
+      s.law().damping = DampingModel::none;
+      std::copy(numbers.begin(), numbers.end(), s.law().plastic);
+    };
+  };
+  add("hysteretic", "granular hysteretic", "granular hooke",
+      yielding(NormalModel::hysteretic, {1e5, 0.5}));
+  add("hysteretic/size", "granular hysteretic/size", "granular hooke",
+      yielding(NormalModel::hysteretic_size, {2e5, 0.5}));
+  add("hysteretic/edem", "granular hysteretic/edem", "granular hooke",
+      yielding(NormalModel::hysteretic_edem, {5e5, 0.5}));
+  add("eepa", "granular eepa", "hertz", yielding(NormalModel::eepa, {1e5, 4e5, 10, 1.5, 2, 0}));
+  add("lepa", "granular lepa", "granular hooke", yielding(NormalModel::lepa, {1e5, 4e5, 1e5, 0.1}));
+  add("thornton", "granular thornton", "hertz", yielding(NormalModel::thornton, {7.5e4, 1e4}));
   const auto damping = [](DampingModel d) {
     return [d](EngineSettings &s) { s.law().damping = d; };
   };

@@ -14,7 +14,7 @@ from facts import at_most, fact
 from test_energy import CAUSES, E, OTHERS, check_bounces, close, jkr_force, nothing_but
 
 NAMES = (*(f"{c} power" for c in CAUSES), *CAUSES, *OTHERS, "work", "held", "remainder", "kinetic", "gravity", "all held", "all lost",
-         "drive")
+         "drive", "plastic power", "plastic")
 COLUMNS = " ".join(["c_books", *(f"c_books[{k + 1}]" for k in range(len(NAMES)))])
 OUTPUT = f"""\
 compute         books all lsdcd/energy

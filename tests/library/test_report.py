@@ -81,7 +81,7 @@ def test_names_of_one_mesh(folder):
 
 
 def test_elements_that_there_are_not(folder):
-    heads = ["f_w[76]", "f_w[0]", "f_out[9]", "f_out", "c_balls[23]", "f_none[1]", "v_drum_colour", "v_other"]
+    heads = ["f_w[78]", "f_w[0]", "f_out[9]", "f_out", "c_balls[25]", "f_none[1]", "v_drum_colour", "v_other"]
     numbers = numbers_with(fresh(folder, "none"), heads)
     for head in heads:
         fact(f"{head} has no name of LSDCD's", numbers[head]["owner"] == "", numbers[head])

@@ -113,7 +113,7 @@ def test_bits_of_a_script(folder):
 
 
 # Keywords that the wall of test_numbers_by_name() does not have.
-WITHOUT = ("body_", "removed_", "held_back_", "couple_", "lost_wear")
+WITHOUT = ("body_", "removed_", "held_back_", "couple_", "lost_wear", "dissipated_power_plastic", "dissipated_plastic")
 
 
 def test_numbers_by_name(folder):

@@ -128,6 +128,12 @@ BASES = {
                 "damping velocity|viscoelastic rolling epsd 0.1|0.2 0.3|0.4 twisting marshall|none"),
     "liggghts": on("floor", law="granular hertz/material 5e5|6e5 0.5|0.6 0.3|0.2 tangential mindlin_liggghts|mindlin NULL|2e5 1|2 0.4|0.3 "
                    "damping coeff_restitution|tsuji rolling epsd3 0.1|0.2 0.3|0.4 2.25|2 cohesion sjkr 100|200"),
+    "yields": on("floor", law="granular hysteretic|hysteretic/size 1e4|1.1e4 0.5|0.6 tangential linear_nohistory 1 0.4"),
+    "yields_by_size": on("floor", law="granular hysteretic/size|hysteretic/edem 2e4|2.1e4 0.5|0.6 tangential linear_nohistory 1 0.4"),
+    "yields_as_edem": on("floor", law="granular hysteretic/edem|hysteretic 2e4|2.1e4 0.5|0.6 tangential linear_nohistory 1 0.4"),
+    "yields_and_pulls": on("floor", law="granular eepa 1e4|1.1e4 0.5|0.6 0.5|0.4 10|11 1|1.5 1|1.5 -0.1|-0.2 tangential linear_nohistory 1 0.4"),
+    "pulls_by_slope": on("floor", law="granular lepa 1e4|1.1e4 5|6 5e4|6e4 1e3|2e3 0.1|0.2 tangential linear_nohistory 1 0.4"),
+    "flattens": on("floor", law="granular thornton 5e5|6e5 5|6 0.3|0.2 1e4|2e4 tangential linear_nohistory 1 0.4"),
     "slipping": on("floor", law="granular hooke 1e4 5 tangential linear_history_slip|linear_history 3e3|2e3 1|2 0.4|0.3 damping velocity"),
     "as_liggghts": on("floor", law="granular hooke 1e4 5 tangential linear_history_liggghts|linear_history 3e3|2e3 1|2 0.4|0.3 damping velocity"),
     "midpoint": on("floor", law="granular hooke 1e4 5 tangential linear_nohistory_liggghts|linear_nohistory 1|2 0.4|0.3 damping none|velocity"),

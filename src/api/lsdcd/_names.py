@@ -125,5 +125,7 @@ OutputName = Literal[
     "impacts",
     "impact_energy",
     "lost_wear",
+    "dissipated_power_plastic",
+    "dissipated_plastic",
     "elastic_energy",
 ]

@@ -46,8 +46,10 @@ STYLE_OUTPUTS: dict[str, list[tuple[str, str, str]]] = {
         ("kinetic_energy", "energy", "kinetic energy of grains, with that of their rotation"),
         ("gravity_energy", "energy", "potential energy by fix gravity"),
         ("all_held_energy", "energy", "elastic energy of all contacts, those with walls included"),
-        ("all_lost", "energy", "all that is lost: elements 6-14, and the same of walls"),
+        ("all_lost", "energy", "all that is lost: elements 6-14 and 24, and the same of walls"),
         ("drive_work", "energy", "work of the moving meshes and their surfaces on the grains"),
+        ("dissipated_power_plastic", "energy/time", "power that contacts between grains dissipate by yielding"),
+        ("dissipated_plastic", "energy", "likewise energy since the beginning"),
         ("balance", "energy", "the scalar: 18 + 19 + 20 + 21 less 22, which keeps its value but for the remainders"),
     ],
     "lsdcd/collide": [
