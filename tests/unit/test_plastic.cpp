@@ -77,18 +77,21 @@ struct Impact {
 };
 
 // A sphere that meets a wall with this speed, by velocity Verlet. The books are those of the product: half of each force's work in the
-// step before and after.
-Impact impact(const PlasticNormal &law, Real speed, Real radius, Real mass, int steps_of_unloading)
+// step before and after. `phase`: the part of a step by which the sphere is away first.
+Impact impact(const PlasticNormal &law, Real speed, Real radius, Real mass, int steps_of_unloading,
+              Real phase = 0)
 {
   Contact c = contact_at(0.01 * radius, radius);
   const Real dt = kPi * std::sqrt(mass / law.tangent(c, 0)) / steps_of_unloading;
-  Real own[kPlasticStored] = {}, overlap = 0, v = speed, force = 0, lost = 0, passed = 0;
+  Real own[kPlasticStored] = {}, overlap = -phase * dt * speed, v = speed, force = 0, lost = 0,
+       passed = 0;
   Impact out = {};
   for (;;) {
     const Real half = v - 0.5 * dt * force / mass, before = overlap;
     overlap += dt * half;
     passed += dt;
     Real begun[kPlasticStored] = {own[0], own[1]};
+    if (!(overlap > 0) && v > 0) continue;    // it comes
     if (!(overlap > 0)) {
       lost += law.loss_at_end(contact_at(0, radius), begun, before);
       v = half;
@@ -157,11 +160,16 @@ TEST(plastic, hysteretic_returns_its_restitution_at_every_speed)
 TEST(plastic, closes_the_books_of_hysteretic_by_the_square_of_the_step)
 {
   for (const Real e : {0.3, 0.9}) {
-    const Real of_50 = std::fabs(impact(hysteretic(1e5, e), 1, 1e-3, kMass, 50).remainder);
-    EXPECT_LT(of_50, e < 0.5 ? 8e-5 : 6e-4) << e;
-    EXPECT_LT(std::fabs(impact(hysteretic(1e5, e), 1, 1e-3, kMass, 200).remainder),
-              e < 0.5 ? 5e-6 : 2e-5)
-        << e;
+    const auto largest = [e](int steps) {
+      Real most = 0;
+      for (int k = 0; k < 50; k++)
+        most = std::max(
+            most,
+            std::fabs(impact(hysteretic(1e5, e), 1, 1e-3, kMass, steps, k / Real(50)).remainder));
+      return most;
+    };
+    EXPECT_LT(largest(50), e < 0.5 ? 8e-5 : 6e-4) << e;
+    EXPECT_LT(largest(200), e < 0.5 ? 5e-6 : 2e-5) << e;
   }
 }
 TEST(plastic, hysteretic_with_e_1_is_the_linear_spring)
