@@ -110,12 +110,12 @@ struct BesideStyle {
 
 void read_rolling(Tokens &w, WallCommand &s)
 {
-  read_beside_style(w, s.wall.laws.front().law, Family::rolling);
+  read_beside_style(w, s.wall.laws.front(), Family::rolling);
 }
 
 void read_cohesion(Tokens &w, WallCommand &s)
 {
-  read_beside_style(w, s.wall.laws.front().law, Family::cohesion);
+  read_beside_style(w, s.wall.laws.front(), Family::cohesion);
 }
 
 const BesideStyle kRolling(Family::rolling), kCohesion(Family::cohesion);

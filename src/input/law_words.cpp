@@ -4,6 +4,8 @@
 #include "input/law_words.h"
 
 #include "input/granular_words.h"
+#include "law/coarse_grain.h"
+#include "law/make_law.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +39,14 @@ void inherit(const ContactLaw &from, LawOfTypes &of)
   if (!law.cohesion.is_on()) law.cohesion = from.cohesion;
 }
 
+// Makes a law of numbers that of larger grains. One of materials is, as it was read after the keyword.
+void make_coarse(LawOfTypes &of, Real coarse_grain)
+{
+  if (coarse_grain == 1 || of.given.empty()) return;
+  of.law = make_law(coarse_grained(of.given, coarse_grain), of.law.limit_damping);
+  of.becomes = coarse_grain_text(of.given, coarse_grain);
+}
+
 }    // namespace
 
 void read_types(Tokens &w, LawOfTypes &of)
@@ -63,28 +73,31 @@ std::string law_syntax()
          " [limit_damping] mesh FILE [keywords], or granular NORMAL ... mesh FILE [keywords]";
 }
 
-ContactLaw read_law(Tokens &w, std::string &name, const std::string &syntax)
+void read_law(Tokens &w, LawOfTypes &of, const std::string &syntax)
 {
   if (w.done()) w.fail("the contact style is missing");
-  name = w.peek();
-  if (name == "granular") {
+  of.name = w.peek();
+  of.given.clear();
+  if (of.name == "granular") {
     w.take();
-    return read_granular(w, name);
+    of.law = read_granular(w, of.name, &of.given);
+    return;
   }
   for (const SubModel *row : sub_models(Family::style)) {
-    if (name != row->name) continue;
+    if (of.name != row->name) continue;
     w.take();
     w.set_context(row->name, syntax);
     LawDraft draft;
-    read_numbers(w, *row, draft);
+    of.given.push_back({row, read_numbers(w, *row, draft)});
     if (!w.done() && w.peek() == "limit_damping") {
       draft.law.limit_damping = true;
       w.take();
     }
     w.refuse_number();
-    return draft.law;
+    of.law = draft.law;
+    return;
   }
-  w.fail("'" + name + "' is not a contact style");
+  w.fail("'" + of.name + "' is not a contact style");
 }
 
 std::vector<const SubModel *> rows_beside_style(Family family)
@@ -95,17 +108,18 @@ std::vector<const SubModel *> rows_beside_style(Family family)
   return rows;
 }
 
-void read_beside_style(Tokens &w, ContactLaw &law, Family family)
+void read_beside_style(Tokens &w, LawOfTypes &of, Family family)
 {
-  if (!law.is_classic()) w.fail("beside granular it comes before mesh, as the other sub-models");
+  if (!of.law.is_classic()) w.fail("beside granular it comes before mesh, as the other sub-models");
   const std::vector<const SubModel *> rows = rows_beside_style(family);
   std::vector<std::string> names;
   for (const SubModel *row : rows) names.push_back(row->name);
   LawDraft draft;
-  draft.law = law;
-  read_numbers(w, *rows[w.choice(names)], draft);
+  draft.law = of.law;
+  const SubModel &row = *rows[w.choice(names)];
+  of.given.push_back({&row, read_numbers(w, row, draft)});
   w.refuse_number();
-  law = draft.law;
+  of.law = draft.law;
 }
 
 // The law of all types is that of those without a row of their own: it becomes the first row, wherever it stands.
@@ -125,20 +139,23 @@ void read_law_of_mesh(Tokens &w, MeshSpec &mesh, InputNames &)
            "after mesh FILE, and that of atom types as 'types I NAME' after granular material FILE "
            "PARTICLE");
   }
-  of.law = read_law(w, of.name, kLawOfTypesSyntax);
+  read_law(w, of, kLawOfTypesSyntax);
   while (of.law.is_classic() && !w.done()) {
     const bool rolls = w.peek() == family_word(Family::rolling);
     if (!rolls && w.peek() != family_word(Family::cohesion)) break;
     const bool twice = rolls ? of.law.rolling.is_on() : of.law.cohesion.is_on();
     w.set_context("law ... " + w.take(), kLawOfTypesSyntax);
     if (twice) w.fail("it is given twice");
-    read_beside_style(w, of.law, rolls ? Family::rolling : Family::cohesion);
+    read_beside_style(w, of, rolls ? Family::rolling : Family::cohesion);
   }
   mesh.laws.insert(by_type ? mesh.laws.end() : mesh.laws.begin(), of);
 }
 
 void finish_laws(WallSpec &s)
 {
+  for (LawOfTypes &of : s.laws) make_coarse(of, s.coarse_grain);
+  for (MeshSpec &mesh : s.meshes)
+    for (LawOfTypes &of : mesh.laws) make_coarse(of, s.coarse_grain);
   for (MeshSpec &mesh : s.meshes)
     for (LawOfTypes &of : mesh.laws) inherit(s.law(), of);
   leave_out_zero_cohesion(s);

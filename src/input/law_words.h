@@ -15,10 +15,10 @@ namespace lsdcd {
 
 // "hooke|hooke/history|... kn kt|NULL ... [limit_damping] mesh FILE [keywords], or granular ..."
 std::string law_syntax();
-// Returns the style and its numbers. `name`: the style; with `granular`, all its words.
-ContactLaw read_law(Tokens &w, std::string &name, const std::string &syntax);
+// Reads the style and its numbers. The law's name becomes the style, and with `granular` all its words.
+void read_law(Tokens &w, LawOfTypes &of, const std::string &syntax);
 // A sub-model beside a classic style: "cdt MU", and those that there are: all of the family but `none`.
-void read_beside_style(Tokens &w, ContactLaw &law, Family family);
+void read_beside_style(Tokens &w, LawOfTypes &of, Family family);
 std::vector<const SubModel *> rows_beside_style(Family family);
 
 // [types I] STYLE NUMBERS, after `law`.
@@ -27,7 +27,7 @@ void read_law_of_mesh(Tokens &w, MeshSpec &mesh, InputNames &);
 // Reads a range of types as LAMMPS's: 2, 1*3, 2*, *3, *
 void read_types(Tokens &w, LawOfTypes &of);
 
-// Once all is read: what a mesh's law leaves out is the wall's; refuses other sub-models.
+// Once all is read: applies coarse_grain to numbers of the script; what a mesh's law leaves out is the wall's; refuses other sub-models.
 void finish_laws(WallSpec &settings);
 
 }    // namespace lsdcd

@@ -200,6 +200,7 @@ std::vector<LawOfTypes> read_laws(const WallMaterials &materials,
     laws.emplace_back();
     laws.back().law = made.law;
     laws.back().name = made.name;
+    laws.back().becomes = made.becomes;
     if (read.report.find(made.report) == std::string::npos)
       read.report += (read.report.empty() ? "" : "\n") + made.report;
     read.files = made.files;    // those of each pair
@@ -218,6 +219,7 @@ std::vector<LawOfTypes> read_laws(Host &host, const WallMaterials &materials,
   for (LawOfTypes &of : laws) {
     host.broadcast(&of.law, sizeof of.law, 0);
     broadcast_text(host, of.name);
+    broadcast_text(host, of.becomes);
   }
   return laws;
 }

@@ -110,11 +110,7 @@ void read_granular(Tokens &w, PairCoeff &coeff)
   all.erase(std::remove_if(all.begin(), all.end(), is_none), all.end());
   const auto is_damping = [](const GivenSubModel &g) { return g.row->family == Family::damping; };
   if (std::any_of(all.begin(), all.end(), is_damping)) return;
-  LawDraft with_default = {granular_law(NormalModel::hooke)};
-  add_sub_model(*all.front().row, all.front().numbers, with_default);    // the normal sub-model
-  for (const SubModel &row : sub_models())
-    if (row.family == Family::damping && row.name == std::string(with_default.damping_name))
-      all.push_back({&row, {}});
+  all.push_back({&damping_of(all), {}});
 }
 
 }    // namespace

@@ -236,7 +236,7 @@ WallCommand parse_wall(const std::vector<std::string> &arguments, const LawsOfMa
   if (has_materials)
     read_wall_materials(w, arguments, command.materials);
   else
-    law.law = read_law(w, law.name, law_syntax());
+    read_law(w, law, law_syntax());
   const bool granular = has_materials || !law.law.is_classic();
   read_keywords(w, command, granular, program != nullptr);
   w.set_context(command_name, granular ? granular_syntax() : law_syntax());
@@ -246,6 +246,7 @@ WallCommand parse_wall(const std::vector<std::string> &arguments, const LawsOfMa
   else
     check_script(wall);
   check_names(wall.meshes);
+  command.materials.pair.coarse_grain = wall.coarse_grain;
   if (has_materials) add_laws(command.materials, laws_of, wall);
   finish_laws(wall);
   check_spec(wall);

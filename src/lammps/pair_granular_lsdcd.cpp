@@ -13,6 +13,7 @@
 #include "lammps/host_pairs.h"
 #include "lammps/mpi_host.h"
 #include "lammps/other_fixes.h"
+#include "law/coarse_grain.h"
 #include "law/contact_time.h"
 #include "law/force_parts.h"
 #include "law/make_law.h"
@@ -113,8 +114,14 @@ void PairGranularLsdcd::settings(int narg, char **arg)
 {
   const std::vector<std::string> words(arg, arg + narg);
   lsdcd::Tokens w(words);
-  w.set_context("pair_style granular/lsdcd", "pair_style granular/lsdcd [CUTOFF]");
-  cutoff = w.done() ? -1 : w.number("the cutoff", 0);
+  w.set_context("pair_style granular/lsdcd", "pair_style granular/lsdcd [CUTOFF] [coarse_grain L]");
+  const auto is_coarse = [&] { return !w.done() && w.peek() == "coarse_grain"; };
+  cutoff = w.done() || is_coarse() ? -1 : w.number("the cutoff", 0);
+  coarse_grain = 1;
+  if (is_coarse()) {
+    w.take();
+    coarse_grain = w.number("L", lsdcd::kAboveZero);
+  }
   if (!w.done()) w.fail("'" + w.peek() + "' is not expected");
 }
 
@@ -155,6 +162,7 @@ void PairGranularLsdcd::coeff(int narg, char **arg)
   const bool by_material = lsdcd::has_pair_materials(words);
   if (by_material) words = words_of_materials(words);
   lsdcd::PairCoeff coeff = lsdcd::read_pair_coeff(words);
+  lsdcd::law_of(coeff, coarse_grain);    // throws where it is not known for larger grains
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
     for (int j = std::max(jlo, i); j <= jhi; j++) {
@@ -197,7 +205,7 @@ void PairGranularLsdcd::init_style()
     // Pairs of one law are computed together.
     for (std::size_t k = 0; k < coeffs.size(); k++)
       if (lsdcd::are_equal(coeffs[k], coeff)) return static_cast<int>(k);
-    lsdcd::ContactLaw law = lsdcd::law_of(coeff);
+    lsdcd::ContactLaw law = lsdcd::law_of(coeff, coarse_grain);
     try {
       lsdcd::check_dashpots(law, force->ftm2v);
     } catch (const lsdcd::LawError &e) {
@@ -532,6 +540,16 @@ void PairGranularLsdcd::tell_laws()
                 std::to_string(i) + " " + std::to_string(j) + " law material FILE A on B";
     }
   if (same) text = "\n  all types: " + words(1, 1);
+  if (coarse_grain != 1) {
+    std::vector<lsdcd::CoarseGrained> becomes;
+    for (int i = 1; i <= n_types && !laws.empty(); i++)
+      for (int j = i; j <= n_types; j++)
+        if (!without_law.count({i, j}))
+          becomes.push_back(
+              {"types " + std::to_string(i) + " " + std::to_string(j),
+               lsdcd::coarse_grain_text(coeffs[law_index(i, j)].sub_models, coarse_grain)});
+    text += "\n  " + lsdcd::coarse_grain_line(coarse_grain, becomes);
+  }
   const int width = kept_width();
   log("laws of pairs, " +
       (width ? std::to_string(lsdcd::PairHistory::bytes_per_pair(width)) + " bytes a touching pair"

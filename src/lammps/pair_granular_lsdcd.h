@@ -82,6 +82,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   void set_limits();
 
   double cutoff = -1;
+  double coarse_grain = 1;    // grains are so many times as large as those of the coefficients
   std::map<std::pair<int, int>, lsdcd::PairCoeff> given;    // i <= j
   std::map<std::pair<int, int>, bool> of_material;          // whether its numbers are of a file
   std::set<std::string> material_files;                     // that the first process has read

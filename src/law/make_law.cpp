@@ -140,6 +140,27 @@ void finish_granular(LawDraft &d)
   law.eta = exact ? restitution_damping(law.normal, d.second) : tsuji_damping(d.second);
 }
 
+const SubModel &damping_of(const std::vector<GivenSubModel> &sub_models)
+{
+  for (const GivenSubModel &given : sub_models)
+    if (given.row->family == Family::damping) return *given.row;
+  LawDraft draft = {granular_law(NormalModel::hooke)};
+  add_sub_model(*sub_models.front().row, sub_models.front().numbers, draft);
+  const std::vector<const SubModel *> rows = lsdcd::sub_models(Family::damping);
+  return **std::find_if(rows.begin(), rows.end(), [&](const SubModel *row) {
+    return row->name == std::string(draft.damping_name);
+  });
+}
+
+ContactLaw make_law(const std::vector<GivenSubModel> &sub_models, bool limit_damping)
+{
+  LawDraft draft = {granular_law(NormalModel::hooke)};
+  for (const GivenSubModel &given : sub_models) add_sub_model(*given.row, given.numbers, draft);
+  draft.law.limit_damping = limit_damping;
+  if (!draft.law.is_classic()) finish_granular(draft);
+  return draft.law;
+}
+
 // The critical dashpot is 2 sqrt(m k / acceleration), and the formulas, which are LAMMPS's and LIGGGHTS's, have 2 sqrt(m k).
 void check_dashpots(const ContactLaw &law, Real acceleration)
 {

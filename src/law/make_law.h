@@ -25,6 +25,10 @@ void add_sub_model(const SubModel &row, const std::vector<Real> &given, LawDraft
 bool can_derive(const SubModel &row, const LawDraft &draft);
 // Resolves what depends on several sub-models, once all are there. Throws LawError.
 void finish_granular(LawDraft &draft);
+// Returns the row of the damping, which the normal sub-model, the first one, says where there is none.
+const SubModel &damping_of(const std::vector<GivenSubModel> &sub_models);
+// Returns the law of these sub-models, a classic style or the normal one first. Throws LawError.
+ContactLaw make_law(const std::vector<GivenSubModel> &sub_models, bool limit_damping);
 
 // Throws LawError if the law has a dashpot that is given as a part of the critical one, as by a restitution, and if it would be another
 // part in these units. `acceleration`: that of a mass of 1 by a force of 1, in units of velocity/time.

@@ -14,29 +14,83 @@ namespace {
 
 // ---- numbers of several rows -------------------------------------------------------------
 
-constexpr Parameter kStiffness = {"kn", "force/length"}, kHertzStiffness = {"kn", "force/length^2"};
-constexpr Parameter kEta = {"eta|e", "of the damping"}, kEtaAlone = {"eta", "of the damping"};
-constexpr Parameter kYoung = {"E", "force/length^2", kAboveZero};
-constexpr Parameter kPoisson = {"nu", "1", -1 + 1e-12, 0.5};
-constexpr Parameter kSurfaceEnergy = {"gamma", "energy/length^2"};
-constexpr Parameter kXgammat = {"xgammat", "1"};
-constexpr Parameter kMu = {"mu", "1", 0, Tokens::kHuge, false, "sliding_friction"};
-constexpr Parameter kMindlin = {"kt", "force/length^2", 0, Tokens::kHuge, true};
-constexpr Parameter kMindlinDashpot = {"xgammat", "1", 0, Tokens::kHuge, true};
-constexpr Parameter kRollingFriction = {"mu", "1", 0, Tokens::kHuge, false, "rolling_friction"};
-constexpr Parameter kRollingDamping = {"damping", "1", 0, Tokens::kHuge, false, "rolling_damping"};
-constexpr Parameter in_series(const char *name, const char *unit)
+// The powers keep stresses and velocities: lengths and times grow by L, forces by L^2, masses and energies by L^3.
+constexpr Parameter share(const char *name, Real least = 0, Real most = Tokens::kHuge,
+                          bool may_be_null = false, const char *property = nullptr)
 {
-  return {name, unit, kAboveZero, Tokens::kHuge, false, nullptr, false, Mixing::series};
+  return Parameter{name, "1", least, most, may_be_null, property}.to_power(0);
 }
-constexpr Parameter kOwnRestitution = {"e", "1", kAboveZero, 1};
-constexpr Parameter kMuRolling = {"MU", "1", 0, Tokens::kHuge, false, "rolling_friction"};
 
-std::vector<Parameter> classic_numbers(const char *stiffness, const char *damping)
+constexpr Parameter kStiffness = Parameter{"kn", "force/length"}.to_power(1);
+constexpr Parameter kHertzStiffness = Parameter{"kn", "force/length^2"}.to_power(0);
+constexpr Parameter kEta = Parameter{"eta|e", "of the damping"}.to_power(kPowerOfDamping);
+constexpr Parameter kEtaAlone = Parameter{"eta", "of the damping"}.to_power(kPowerOfDamping);
+constexpr Parameter kYoung = Parameter{"E", "force/length^2", kAboveZero}.to_power(0);
+constexpr Parameter kPoisson = share("nu", -1 + 1e-12, 0.5);
+constexpr Parameter kSurfaceEnergy = Parameter{"gamma", "energy/length^2"}.to_power(1);
+constexpr Parameter kXgammat = share("xgammat");
+constexpr Parameter kMu = share("mu", 0, Tokens::kHuge, false, "sliding_friction");
+constexpr Parameter kSpring = Parameter{"kt", "force/length"}.to_power(1);
+constexpr Parameter kMindlin =
+    Parameter{"kt", "force/length^2", 0, Tokens::kHuge, true}.to_power(0);
+constexpr Parameter kMindlinDashpot = share("xgammat", 0, Tokens::kHuge, true);
+constexpr Parameter kRollingFriction = share("mu", 0, Tokens::kHuge, false, "rolling_friction");
+constexpr Parameter kRollingDamping = share("damping", 0, Tokens::kHuge, false, "rolling_damping");
+constexpr Parameter kMuRolling = share("MU", 0, Tokens::kHuge, false, "rolling_friction");
+constexpr Parameter kRollingStiffness = share("stiffness");
+constexpr Parameter kRollingSpring = Parameter{"k", "force/length"}.to_power(1);
+constexpr Parameter kRollingDashpot = Parameter{"gamma", "mass/time"}.to_power(2);
+constexpr Parameter kTwistingSpring = Parameter{"k", "torque/angle"}.to_power(3);
+constexpr Parameter kTwistingDashpot = Parameter{"gamma", "torque time/angle"}.to_power(4);
+constexpr Parameter kTwistingLimit = Parameter{"mu", "length"}.to_power(1);
+// The conductivity of a bed stays, though not the flow through a grain over its heat: n grains in a row conduct 1/n times as much, and
+// those that are L times as large are 1/L as many in a length.
+constexpr Parameter kConductivity =
+    Parameter{"k", "power/(length temperature)", 0, Tokens::kHuge, false, "thermal_conductivity"}
+        .to_power(0);
+constexpr Parameter kTransfer = Parameter{"h", "power/(length^2 temperature)"}.to_power(-1);
+constexpr Parameter kCohesion =
+    Parameter{"K", "energy/volume", 0, Tokens::kHuge, false, "cohesion_energy_density"}.to_power(0);
+
+// Of normal sub-models that yield.
+constexpr Parameter kLoading =
+    Parameter{"k1", "force/length", kAboveZero}.to_power(1).mixed_by(Mixing::series);
+constexpr Parameter kSteepest =
+    Parameter{"kp", "force/length", kAboveZero}.to_power(1).mixed_by(Mixing::series);
+constexpr Parameter kPulling =
+    Parameter{"kc", "force/length"}.to_power(1).mixed_by(Mixing::series);
+constexpr Parameter kLoadingByPower =
+    Parameter{"k1", "force/length^n", kAboveZero}.to_power(kPowerByExponent).mixed_by(Mixing::series);
+constexpr Parameter kModulusInSeries =
+    Parameter{"Y", "pressure", kAboveZero}.to_power(0).mixed_by(Mixing::series);
+constexpr Parameter kYieldStrength =
+    Parameter{"Y", "pressure", kAboveZero}.to_power(0).mixed_by(Mixing::least);
+constexpr Parameter kYieldPressure =
+    Parameter{"py", "pressure", kAboveZero}.to_power(0).mixed_by(Mixing::least);
+constexpr Parameter kOwnRestitution = share("e", kAboveZero, 1);
+constexpr Parameter kPlasticity = share("lambda", 0, 1 - 1e-12);
+constexpr Parameter kElasticDepth = share("phi", kAboveZero, 1);
+constexpr Parameter kSlopeExponent =
+    Parameter{"n", "1 or 1.5", 1, 1.5}.to_power(0).mixed_by(Mixing::equal);
+constexpr Parameter kTensileExponent =
+    Parameter{"chi", "multiple of 0.5", 1, 10}.to_power(0).mixed_by(Mixing::equal);
+constexpr Parameter kPullOff = Parameter{"f0", "force", -Tokens::kHuge, 0}.to_power(2);
+
+// Of kn and kt, and of gamman and gammat.
+struct ClassicPowers {
+  int stiffness, damping;
+};
+
+std::vector<Parameter> classic_numbers(const char *stiffness, const char *damping,
+                                       ClassicPowers powers)
 {
-  return {{"kn", stiffness},      {"kt", stiffness, 0, Tokens::kHuge, true},
-          {"gamman", damping},    {"gammat", damping, 0, Tokens::kHuge, true},
-          {"xmu", "1", 0, 10000}, {"dampflag", "0 or 1", 0, 1, false, nullptr, true}};
+  const Parameter kn = {"kn", stiffness}, kt = {"kt", stiffness, 0, Tokens::kHuge, true};
+  const Parameter gamman = {"gamman", damping},
+                  gammat = {"gammat", damping, 0, Tokens::kHuge, true},
+                  dampflag = {"dampflag", "0 or 1", 0, 1, false, nullptr, true};
+  return {kn.to_power(powers.stiffness),   kt.to_power(powers.stiffness),
+          gamman.to_power(powers.damping), gammat.to_power(powers.damping),
+          share("xmu", 0, 10000),          dampflag.to_power(0)};
 }
 
 // ---- what numbers mean -------------------------------------------------------------------
@@ -159,14 +213,14 @@ std::vector<SubModel> make_table()
   // clang-format off
   return {
       // The styles of LAMMPS before `granular`; their formulas are those of 29Sep2021.
-      {F::style, "hooke", Style::hooke, classic_numbers("force/length", "1/time"),
+      {F::style, "hooke", Style::hooke, classic_numbers("force/length", "1/time", {1, -1}),
        set_classic<N::hooke, false>, kNothing, "",
        "linear spring, viscous friction (Silbert et al. 2001)"},
       {F::style, "hooke/history", Style::hooke_history, classic_numbers("force/length",
-       "1/time"), set_classic<N::hooke, true>, kShear, "",
+       "1/time", {1, -1}), set_classic<N::hooke, true>, kShear, "",
        "linear springs along and across the normal (Silbert et al. 2001)"},
       {F::style, "hertz/history", Style::hertz_history, classic_numbers("pressure",
-       "1/(time length)"), set_classic<N::hertz, true>, kShear, "hertz stiffness",
+       "1/(time length)", {0, -2}), set_classic<N::hertz, true>, kShear, "hertz stiffness",
        "springs that stiffen with the contact radius (Brilliantov et al. 1996)"},
 
       {F::normal, "hooke", at(N::hooke), {kStiffness, kEta}, set_stiffness<N::hooke>,
@@ -182,55 +236,50 @@ std::vector<SubModel> make_table()
        set_material<N::jkr>, kNothing, "jkr adhesion",
        "adhesion that holds past touch (Johnson, Kendall and Roberts 1971)"},
 
-      {F::normal, "hysteretic", at(N::hysteretic), {in_series("k1", "force/length"), kOwnRestitution},
+      {F::normal, "hysteretic", at(N::hysteretic), {kLoading, kOwnRestitution},
        set_plastic<N::hysteretic, false, D::none, 1>, kPlasticOverlap, "yielding",
        "spring that unloads stiffer, with a restitution e at all speeds (Walton and Braun 1986; Rocky)"},
-      {F::normal, "hysteretic/size", at(N::hysteretic_size), {in_series("Y", "pressure"), kOwnRestitution},
+      {F::normal, "hysteretic/size", at(N::hysteretic_size), {kModulusInSeries, kOwnRestitution},
        set_plastic<N::hysteretic_size, false, D::none, 2>, kPlasticOverlap, "yielding",
        "hysteretic with k1 = 2 Y R (Rocky)"},
-      {F::normal, "hysteretic/edem", at(N::hysteretic_edem), {{"Y", "pressure", kAboveZero,
-       Tokens::kHuge, false, nullptr, false, Mixing::least}, kOwnRestitution},
+      {F::normal, "hysteretic/edem", at(N::hysteretic_edem), {kYieldStrength, kOwnRestitution},
        set_plastic<N::hysteretic_edem, false, D::none, 5>, kPlasticOverlap, "yielding",
        "hysteretic with k1 = 5 Y R, of the lesser yield strength (EDEM)"},
-      {F::normal, "eepa", at(N::eepa), {in_series("k1", "force/length^n"), kEta, {"lambda", "1",
-       0, 1 - 1e-12}, kSurfaceEnergy, {"n", "1 or 1.5", 1, 1.5, false, nullptr, false, Mixing::equal},
-       {"chi", "multiple of 0.5", 1, 10, false, nullptr, false, Mixing::equal},
-       {"f0", "force", -Tokens::kHuge, 0}}, set_plastic<N::eepa, true, D::stiffness, 1>,
+      {F::normal, "eepa", at(N::eepa), {kLoadingByPower, kEta, kPlasticity, kSurfaceEnergy, kSlopeExponent,
+       kTensileExponent, kPullOff}, set_plastic<N::eepa, true, D::stiffness, 1>,
        {"plastic overlap of eepa, adhesive slope", 2}, "yielding and adhesion",
        "elasto-plastic adhesion (Edinburgh: Thakur et al. 2014; EDEM)"},
-      {F::normal, "lepa", at(N::lepa), {in_series("k1", "force/length"), kEtaAlone,
-       in_series("kp", "force/length"), {"kc", "force/length", 0, Tokens::kHuge, false, nullptr, false,
-       Mixing::series}, {"phi", "1", kAboveZero, 1}}, set_plastic<N::lepa, true, D::velocity, 1>,
-       {"greatest overlap of lepa", 1}, "yielding and adhesion",
+      {F::normal, "lepa", at(N::lepa), {kLoading, kEtaAlone, kSteepest, kPulling, kElasticDepth},
+       set_plastic<N::lepa, true, D::velocity, 1>, {"greatest overlap of lepa", 1}, "yielding and adhesion",
        "linear elasto-plastic adhesion (Luding 2008)"},
-      {F::normal, "thornton", at(N::thornton), {kYoung, kEtaAlone, kPoisson, {"py", "pressure",
-       kAboveZero, Tokens::kHuge, false, nullptr, false, Mixing::least}}, set_thornton,
+      {F::normal, "thornton", at(N::thornton), {kYoung, kEtaAlone, kPoisson, kYieldPressure}, set_thornton,
        {"greatest overlap of thornton", 1}, "yielding", "elastic, perfectly plastic sphere (Thornton 1997)"},
 
-      {F::damping, "none", at(D::none), {}, set_damping<D::none>, kNothing, "", "none"},
+      {F::damping, "none", at(D::none), {}, set_damping<D::none>, kNothing, "", "none",
+       0},
       {F::damping, "velocity", at(D::velocity), {}, set_damping<D::velocity>, kNothing,
-       "normal damping", "eta v"},
+       "normal damping", "eta v", 2},
       {F::damping, "mass_velocity", at(D::mass_velocity), {}, set_damping<D::mass_velocity>,
-       kNothing, "normal damping", "eta m v"},
+       kNothing, "normal damping", "eta m v", -1},
       {F::damping, "viscoelastic", at(D::viscoelastic), {}, set_damping<D::viscoelastic>,
-       kNothing, "normal damping", "eta m a v (Brilliantov et al. 1996)"},
+       kNothing, "normal damping", "eta m a v (Brilliantov et al. 1996)", -2},
       {F::damping, "tsuji", at(D::stiffness), {}, set_damping<D::stiffness>, kNothing,
-       "normal damping", "restitution e, by a fit (Tsuji, Tanaka and Ishida 1992)"},
+       "normal damping", "restitution e, by a fit (Tsuji, Tanaka and Ishida 1992)", 0},
       {F::damping, "coeff_restitution", at(D::stiffness), {}, set_damping<D::stiffness>,
-       kNothing, "normal damping", "restitution e, exactly (Brilliantov et al. 1996)"},
+       kNothing, "normal damping", "restitution e, exactly (Brilliantov et al. 1996)", 0},
 
       {F::tangential, "linear_nohistory", at(T::linear_nohistory), {kXgammat, kMu},
        set_slip<T::linear_nohistory>, kNothing, "", "viscous friction"},
       {F::tangential, "linear_nohistory_liggghts", at(T::linear_nohistory_liggghts), {kXgammat, kMu},
        set_slip<T::linear_nohistory_liggghts>, kNothing, "midpoint friction",
        "linear_nohistory at the middle of the overlap (LIGGGHTS)"},
-      {F::tangential, "linear_history", at(T::linear_history), {{"kt", "force/length"},
+      {F::tangential, "linear_history", at(T::linear_history), {kSpring,
        kXgammat, kMu}, set_spring<T::linear_history>, kShear, "tangential spring",
        "linear spring (Luding 2008)"},
-      {F::tangential, "linear_history_slip", at(T::linear_history_slip), {{"kt",
-       "force/length"}, kXgammat, kMu}, set_spring<T::linear_history_slip>, kShear, "tangential spring",
+      {F::tangential, "linear_history_slip", at(T::linear_history_slip), {kSpring,
+       kXgammat, kMu}, set_spring<T::linear_history_slip>, kShear, "tangential spring",
        "linear_history, its spring cut alone"},
-      {F::tangential, "linear_history_liggghts", at(T::linear_history_liggghts), {{"kt", "force/length"},
+      {F::tangential, "linear_history_liggghts", at(T::linear_history_liggghts), {kSpring,
        kXgammat, kMu}, set_spring<T::linear_history_liggghts>, kShear, "tangential spring",
        "linear_history, without its dashpot while it slips (LIGGGHTS)"},
       {F::tangential, "mindlin", at(T::mindlin), {kMindlin, kXgammat, kMu},
@@ -254,8 +303,7 @@ std::vector<SubModel> make_table()
        "rescaling on unloading"}, "tangential spring", "mindlin_rescale that keeps the force"},
 
       {F::rolling, "none", at(R::none), {}, copied, kNothing, "", "none"},
-      {F::rolling, "sds", at(R::sds), {{"k", "force/length"}, {"gamma", "mass/time"},
-       kRollingFriction}, copied, {"rolling displacement", 3},
+      {F::rolling, "sds", at(R::sds), {kRollingSpring, kRollingDashpot, kRollingFriction}, copied, {"rolling displacement", 3},
        "rolling resistance", "spring, dashpot, slider (Luding 2008; Wang et al. 2015)"},
       {F::rolling, "cdt", at(R::cdt), {kMuRolling}, copied, kNothing, "rolling cdt",
        "constant torque (LIGGGHTS; Ai et al. 2011)"},
@@ -263,26 +311,23 @@ std::vector<SubModel> make_table()
        "rolling epsd2", "elastic-plastic spring (LIGGGHTS; Ai et al. 2011)"},
       {F::rolling, "epsd", at(R::epsd), {kMuRolling, kRollingDamping}, copied, {"rolling torque of epsd", 3,
        nullptr, true}, "rolling epsd", "elastic-plastic spring and dashpot (LIGGGHTS; Ai et al. 2011)"},
-      {F::rolling, "epsd3", at(R::epsd3), {kMuRolling, kRollingDamping, {"stiffness", "1"}}, copied,
+      {F::rolling, "epsd3", at(R::epsd3), {kMuRolling, kRollingDamping, kRollingStiffness}, copied,
        {"rolling torque of epsd3", 3, nullptr, true}, "rolling epsd3",
        "epsd with a number for its 2.25 (LIGGGHTS)"},
 
       {F::twisting, "none", at(W::none), {}, copied, kNothing, "", "none"},
       {F::twisting, "marshall", at(W::marshall), {}, copied, {"twist angle of marshall", 1},
        "twisting resistance", "spring, dashpot, slider by the tangential ones (Marshall 2009)"},
-      {F::twisting, "sds", at(W::sds), {{"k", "torque/angle"}, {"gamma",
-       "torque time/angle"}, {"mu", "length"}}, copied, {"twist angle of sds", 1},
+      {F::twisting, "sds", at(W::sds), {kTwistingSpring, kTwistingDashpot, kTwistingLimit}, copied, {"twist angle of sds", 1},
        "twisting resistance", "spring, dashpot, slider (Luding 2008)"},
 
       {F::heat, "none", at(H::none), {}, copied, kNothing, "", "none"},
-      {F::heat, "radius", at(H::radius), {{"k", "power/(length temperature)", 0,
-       Tokens::kHuge, false, "thermal_conductivity"}}, copied, kNothing, "heat conduction",
+      {F::heat, "radius", at(H::radius), {kConductivity}, copied, kNothing, "heat conduction",
        "2 k a dT (Vargas and McCarthy 2001)"},
-      {F::heat, "area", at(H::area), {{"h", "power/(length^2 temperature)"}}, copied,
+      {F::heat, "area", at(H::area), {kTransfer}, copied,
        kNothing, "heat conduction", "h pi a^2 dT"},
 
-      {F::cohesion, "sjkr", at(C::sjkr), {{"K", "energy/volume", 0, Tokens::kHuge, false,
-       "cohesion_energy_density"}}, copied, kNothing,
+      {F::cohesion, "sjkr", at(C::sjkr), {kCohesion}, copied, kNothing,
        "cohesion sjkr", "K times the area of contact (LIGGGHTS)"},
   };
   // clang-format on

@@ -22,6 +22,11 @@ enum class Mixing {
   equal    // two that differ cannot be mixed
 };
 
+// Powers of a length. In coarse graining grains are L times as large, and a number of theirs is multiplied by L to its power.
+constexpr Real kNoPower = 1e9;           // nothing is known of it
+constexpr Real kPowerOfDamping = 2e9;    // that of the damping sub-model (SubModel::second)
+constexpr Real kPowerByExponent = 3e9;   // 2 - n, with the number n of the same row: a force is it times a length^n
+
 // A number that a script gives.
 struct Parameter {
   const char *name;
@@ -31,6 +36,21 @@ struct Parameter {
   const char *property = nullptr;    // its name in a material file, if it is there
   bool is_flag = false;              // 0 or 1
   Mixing mixing = Mixing::geometric;
+  Real power = kNoPower;    // of L, see coarse_grain.h
+
+  // Return the same number with a power of L, and mixed in another way.
+  constexpr Parameter to_power(Real of_length) const
+  {
+    Parameter made = *this;
+    made.power = of_length;
+    return made;
+  }
+  constexpr Parameter mixed_by(Mixing way) const
+  {
+    Parameter made = *this;
+    made.mixing = way;
+    return made;
+  }
 };
 
 // Numbers that a contact stores from step to step.
@@ -63,6 +83,14 @@ struct SubModel {
   Stored stored;
   const char *effect;    // name in the log; empty: none
   const char *help;      // one line, with the source of the formula
+  // Of a damping sub-model: the power of L of the second number of the normal one, whose meaning it says.
+  Real second = kNoPower;
+};
+
+// A sub-model and its numbers; NaN: one that is derived, or of the materials.
+struct GivenSubModel {
+  const SubModel *row;
+  std::vector<Real> numbers;
 };
 
 const std::vector<SubModel> &sub_models();

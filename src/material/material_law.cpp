@@ -5,6 +5,7 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
+#include "law/coarse_grain.h"
 #include "law/make_law.h"
 #include "material/contact_moduli.h"
 #include "material/material_file.h"
@@ -73,6 +74,7 @@ class LawFiller {
     for (const GivenSubModel &given : c_.beside) made.sub_models.push_back(filled(given));
     made.law = law_of(made.sub_models);
     made.name = "granular " + text_of(made.sub_models) + (c_.limit_damping ? " limit_damping" : "");
+    made.becomes = coarse_grain_text(made.sub_models, c_.coarse_grain);
     made.report = report_;
     made.files = file_.files;
     return made;
@@ -272,15 +274,11 @@ class LawFiller {
 
   ContactLaw law_of(const std::vector<GivenSubModel> &sub_models) const
   {
-    LawDraft draft = {granular_law(NormalModel::hooke)};
-    for (const GivenSubModel &given : sub_models) add_sub_model(*given.row, given.numbers, draft);
-    draft.law.limit_damping = c_.limit_damping;
     try {
-      finish_granular(draft);
+      return make_law(coarse_grained(sub_models, c_.coarse_grain), c_.limit_damping);
     } catch (const LawError &e) {
       fail(e.what());
     }
-    return draft.law;
   }
 
   [[noreturn]] void fail(const std::string &problem) const

@@ -18,12 +18,6 @@ struct Override {
   Real value;
 };
 
-// A sub-model and its numbers; NaN: one that is derived, or of the materials.
-struct GivenSubModel {
-  const SubModel *row;
-  std::vector<Real> numbers;
-};
-
 // Particles of one material at a wall of another one, or of the same.
 struct MaterialPair {
   std::string file;    // as find_material_file() takes it
@@ -33,6 +27,8 @@ struct MaterialPair {
   // Beside the normal sub-model. By default the damping is by the restitution, and the tangential sub-model mindlin.
   std::vector<GivenSubModel> beside;
   bool limit_damping = false;
+  Real coarse_grain =
+      1;    // the law is of grains so many times as large as those that the numbers are of
 };
 
 // How messages call what a caller gives.
@@ -43,9 +39,10 @@ struct MaterialWords {
 
 struct MaterialLaw {
   std::vector<GivenSubModel>
-      sub_models;    // the normal one first; all numbers are there, NaN: derived
+      sub_models;    // the normal one first; all numbers are there as given, NaN: derived
   ContactLaw law;
   std::string name;                  // "granular ...": its words, which give the same numbers
+  std::string becomes;               // coarse_grain_text(); empty without
   std::string report;                // several lines: each number with its source
   std::vector<std::string> files;    // that have been read
 };

@@ -5,6 +5,7 @@
 
 #include "base/input_error.h"
 #include "base/number_words.h"
+#include "law/coarse_grain.h"
 #include "law/make_law.h"
 #include "material/contact_moduli.h"
 
@@ -90,14 +91,9 @@ bool are_equal(const PairCoeff &a, const PairCoeff &b)
          });
 }
 
-ContactLaw law_of(const PairCoeff &coeff)
+ContactLaw law_of(const PairCoeff &coeff, Real coarse_grain)
 {
-  LawDraft draft = {granular_law(NormalModel::hooke)};
-  for (const GivenSubModel &given : coeff.sub_models)
-    add_sub_model(*given.row, given.numbers, draft);
-  draft.law.limit_damping = coeff.limit_damping;
-  if (!draft.law.is_classic()) finish_granular(draft);
-  return draft.law;
+  return make_law(coarse_grained(coeff.sub_models, coarse_grain), coeff.limit_damping);
 }
 
 std::string text_of(const PairCoeff &coeff)

@@ -21,8 +21,9 @@ struct PairCoeff {
 
 // Returns whether both have the same sub-models, numbers and cutoff.
 bool are_equal(const PairCoeff &a, const PairCoeff &b);
-// Returns the law. Throws InputError if the sub-models do not go together.
-ContactLaw law_of(const PairCoeff &coeff);
+// Returns the law, of grains that are `coarse_grain` times as large as those that the numbers are of. Throws InputError if the
+// sub-models do not go together, or are not known for larger grains.
+ContactLaw law_of(const PairCoeff &coeff, Real coarse_grain = 1);
 // Returns words that give the same law, as "granular hertz/material ...", with NULL for numbers that are derived.
 std::string text_of(const PairCoeff &coeff);
 

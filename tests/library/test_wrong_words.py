@@ -38,7 +38,7 @@ RIGHT = {
     "temperature": ("temperature 300", "temperature v_x"), "rolling": ("rolling sds 100 1 0.1", "rolling epsd3 0.1 0.2 2.25"), "cohesion": ("cohesion sjkr 10",),
     "corner": ("corner sum",), "mesh_fields": ("mesh_fields a.vtp every 5",), "impact_spectrum": ("impact_spectrum a.csv every 5",),
     "mesh_stl": ("mesh_stl a.stl every 5",), "torque_about": ("torque_about 0 0 1", "torque_about mesh 0 0 1"), "contacts": ("contacts",),
-    "each_contact": ("each_contact",), "average": ("average 5",), "energy": ("energy",), "friction_heat": ("friction_heat 0.5",), "impacts": ("impacts 0.1",),
+    "each_contact": ("each_contact",), "average": ("average 5",), "energy": ("energy",), "friction_heat": ("friction_heat 0.5",), "impacts": ("impacts 0.1",), "coarse_grain": ("coarse_grain 2",),
     "log": ("log brief",), "draw": ("draw faces 1",), "cut": ("cut 0 0 1 0.5",), "device": ("device cpu",), "grid": ("grid 0.5", "grid auto"), "rmax": ("rmax 0.75",),
     "memory": ("memory 64",), "nearest": ("nearest 3", "nearest all"), "side": ("side both",), "periodic": ("periodic",)}
 # Numbers in the place of one, most of which are none there.

@@ -207,7 +207,7 @@ OPTIONS = {"boxed": {"lo": (-4, -4, -4), "hi": (4, 4, 4), "periodic": (True, Tru
 # Words behind those of a base.
 MORE = [
     ("floor", "corner sum", REFUSED), ("floor", "corner blend", EXACT), ("box", "side out", REFUSED), ("box", "side both", EXACT),
-    ("floor", "nearest 3", REFUSED), ("floor", "nearest all", EXACT), ("floor", "grid 0.7", EXACT), ("floor", "grid auto", EXACT),
+    ("floor", "coarse_grain 2", REFUSED), ("floor", "coarse_grain 1", EXACT), ("floor", "nearest 3", REFUSED), ("floor", "nearest all", EXACT), ("floor", "grid 0.7", EXACT), ("floor", "grid auto", EXACT),
     ("floor", "memory 256", EXACT), ("nearest_alone", "memory 256", REFUSED), ("floor", "device auto", EXACT), ("floor", "periodic", EXACT),
     ("floor", "log brief", EXACT), ("floor", "average 8", REFUSED), ("floor", "each_contact", EXACT), ("floor", "energy", REFUSED),
     ("floor", "impacts 0.01", REFUSED), ("floor", "shapes", REFUSED), ("floor", "mesh $box", REFUSED), ("floor", "name another", EXACT),

@@ -73,6 +73,12 @@ EDITS = {
    "granular hertz kn eta|e", """, """\
    "granular stiffening kn eta", "kn: force/length, eta: of the damping", "", "spring that stiffens with the overlap"
    "granular hertz kn eta|e", """),
+        ("""\
+   "granular dmt E eta nu gamma", "L gamma"
+""", """\
+   "granular stiffening kn eta", "L kn"
+   "granular dmt E eta nu gamma", "L gamma"
+"""),
     ],
 }
 

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 
 namespace lsdcd::test_sub_models {
@@ -135,6 +136,38 @@ TEST(sub_models, are_listed_in_the_page_of_the_fix)
   EXPECT_NE(page.find(page_table()), std::string::npos)
       << "the table of sub-models in doc/contact_laws.rst should be\n"
       << page_table();
+}
+
+// "L kn", "gamman/L^2"; empty: the number stays.
+std::string becomes(const std::string &name, int power)
+{
+  const std::string factor = std::abs(power) == 1 ? "L" : "L^" + std::to_string(std::abs(power));
+  if (power == 0) return "";
+  return power > 0 ? factor + " " + name : name + "/" + factor;
+}
+
+std::string coarse_row(const SubModel &row)
+{
+  std::vector<std::string> numbers;
+  for (const Parameter &p : row.parameters)
+    if (p.power != kPowerOfDamping) numbers.push_back(becomes(p.name, p.power));
+  if (row.family == Family::damping) numbers.push_back(becomes("eta", row.second));
+  std::string text;
+  for (const std::string &number : numbers)
+    if (!number.empty()) text += (text.empty() ? "" : ", ") + number;
+  if (text.empty()) return "";
+  const std::string word = row.family == Family::normal ? "granular" : family_word(row.family);
+  return "   \"" + word + (word.empty() ? "" : " ") + syntax_of(row) + "\", \"" + text + "\"\n";
+}
+
+TEST(sub_models, have_their_powers_of_coarse_graining_in_the_page_of_the_fix)
+{
+  std::string table;
+  for (const SubModel &row : sub_models()) table += coarse_row(row);
+  const std::string page = content(LSDCD_TEST_DIR "/../doc/contact_laws.rst");
+  EXPECT_NE(page.find("\n\n" + table + "\n"), std::string::npos)
+      << "the table of coarse graining in doc/contact_laws.rst should be\n"
+      << table;
 }
 
 }    // namespace

@@ -7,6 +7,7 @@
 #include "base/number_words.h"
 #include "base/version.h"
 #include "effects/effects.h"
+#include "law/coarse_grain.h"
 #include "law/sub_models.h"
 #include "wall/spec/spec_text.h"
 #include "wall/spec/spec_words.h"
@@ -21,6 +22,7 @@ std::string in_a_line(const WallSpec &settings, const std::deque<MeshPart> &mesh
   std::string t;
   for (const MeshPart &m : meshes)
     t += "mesh " + m.spec.name + " of " + counted(m.grid.report().facets, "facet") + ", ";
+  if (settings.coarse_grain != 1) t += "coarse_grain " + number_text(settings.coarse_grain) + ", ";
   return t + law_name(settings.laws.front()) + ", " + device;
 }
 
@@ -82,6 +84,19 @@ std::string contact_lines(const WallSpec &settings)
   return t;
 }
 
+std::string coarse_grain_lines(const WallSpec &settings)
+{
+  if (settings.coarse_grain == 1) return "";
+  std::vector<CoarseGrained> laws;
+  const auto add = [&](const std::string &of, const LawOfTypes &row) {
+    laws.push_back({of + (row.is_of_all() ? "" : " types " + types_text(row)), row.becomes});
+  };
+  for (const LawOfTypes &row : settings.laws) add("wall", row);
+  for (std::size_t m = 0; m < settings.meshes.size(); m++)
+    for (const LawOfTypes &row : settings.meshes[m].laws) add("mesh " + std::to_string(m + 1), row);
+  return "\n  larger      " + coarse_grain_line(settings.coarse_grain, laws);
+}
+
 std::string effect_lines(const HostNames &names, const WallSpec &settings,
                          const EngineSettings &engine)
 {
@@ -124,8 +139,9 @@ std::string creation_text(const HostNames &names, const WallSpec &settings,
   std::string t;
   for (const MeshPart &m : meshes) t += (t.empty() ? "" : "\n") + mesh_lines(m, coats);
   if (!material.empty()) t += "\n" + material;
-  return t + contact_lines(settings) + effect_lines(names, settings, engine) +
-         search_lines(settings) + "\n  device      " + device + "\n  version     " + version();
+  return t + contact_lines(settings) + coarse_grain_lines(settings) +
+         effect_lines(names, settings, engine) + search_lines(settings) + "\n  device      " +
+         device + "\n  version     " + version();
 }
 
 }    // namespace lsdcd

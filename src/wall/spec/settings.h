@@ -22,7 +22,7 @@ struct LengthSetting {};     // "auto": chosen
 struct NearestSetting {};    // "all", or 1 to kMaxNearest
 struct MemorySetting {};     // in MiB
 struct StepsSetting {};      // a whole number
-struct SpeedSetting {};      // a number above 0
+struct SpeedSetting {};      // a number above 0, as a speed
 struct ShareSetting {};      // a number from 0 to 1
 struct FactorSetting {};     // a number of 0 or more
 
@@ -40,6 +40,8 @@ constexpr const char *kLogWords[] = {"full", "brief"};
 
 // SETTING(member of WallSpec, kind, rule of saved states, and as in Keyword: name, values, unit, range, fallback, help)
 #define LSDCD_WALL_SETTINGS(SETTING)                                                               \
+  SETTING(coarse_grain, SpeedSetting{}, free, "coarse_grain", "L", "", "> 0", "1",                 \
+          "the grains are L times as large as those that the numbers of the law are of")           \
   SETTING(grid_length, LengthSetting{}, with_nearest, "grid", "L | auto", "length", "> 0", "auto", \
           "cell edge of the grid")                                                                 \
   SETTING(rmax, LengthSetting{}, with_nearest, "rmax", "R | auto", "length", "> 0",                \

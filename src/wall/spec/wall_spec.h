@@ -6,6 +6,7 @@
 
 #include "engine/settings.h"
 #include "grid/triangle_grid.h"
+#include "law/sub_models.h"
 #include "mesh/placement.h"
 #include "motion/motion.h"
 #include "rigid/body_spec.h"
@@ -31,6 +32,9 @@ struct LawOfTypes {
   int first_type = 0, last_type = kAnyType;    // both are in the range; there is no type 0
   ContactLaw law;
   std::string name;    // what the log calls it; empty: its sub-models
+  // Its numbers as a script gives them, a style or the normal sub-model first; empty: it is of materials.
+  std::vector<GivenSubModel> given;
+  std::string becomes;    // coarse_grain_text(); empty without
 
   bool is_of_all() const { return first_type <= 1 && last_type == kAnyType; }
   bool has(int type) const { return first_type <= type && type <= last_type; }
@@ -105,6 +109,8 @@ struct WallSpec {
   Real friction_heat = 0;       // the share of the heat of friction that goes into the spheres
   Real impact_speed =
       0;    // length/time; impacts that are faster are recorded (EnergyRecorder); 0: none
+  // Laws are of grains so many times as large as those that a script's numbers are of. They are already multiplied.
+  Real coarse_grain = 1;
   bool shapes = false;      // grains may be no spheres (Spheres::shapes)
   bool periodic = false;    // meshes are meant to reach past periodic faces
   bool brief = false;       // one line in the log
