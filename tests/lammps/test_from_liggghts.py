@@ -228,6 +228,7 @@ WRITTEN = {
 }
 # Commands that stay, and the reason.
 LEFT = {
+    "coarse grains, as the rules are others": ("coarsegraining 2\n", "coarsegraining, which multiplies kn and gamman by rules of its own"),
     "positions of pairs": ("compute p all pair/gran/local pos id\ndump d all local 9 d.txt c_p[1]\n", "column 1 of compute p pair/gran/local, which is pos"),
     "what follows the history of pairs": ("compute p all pair/gran/local\ndump d all local 9 d.txt c_p[22]\n", "column 22 of compute p pair/gran/local"),
     "rows of two walls": (

@@ -456,6 +456,10 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same
         elif w[0] == "dimension" and self.known(w[1], line) != 3:
             raise Left(f"dimension {w[1]}: the grains of LIGGGHTS are discs there, with the mass pi R^2 density and half of m R^2 as moment of inertia",
                        "a layer of spheres in three dimensions; or set ... density/disc, fix nve/sphere disc, and laws for these masses")
+        elif w[0] == "coarsegraining":
+            raise Left("coarsegraining, which multiplies kn and gamman by rules of its own, and not kt and gammat",
+                       "radii, diameters and lengths of templates times the factor, and coarse_grain L behind pair_style granular/lsdcd and in each fix "
+                       "wall/lsdcd, whose numbers are those of the real grains: doc/contact_laws.rst, Coarse graining")
         elif w[0] not in COMMANDS:
             raise Left(f"the command {w[0]}", "see the manual of LAMMPS, or convert the file that it names by itself")
         else:
