@@ -139,8 +139,10 @@ TEST(sub_models, are_listed_in_the_page_of_the_fix)
 }
 
 // "L kn", "gamman/L^2"; empty: the number stays.
-std::string becomes(const std::string &name, int power)
+std::string becomes(const std::string &name, Real real_power)
 {
+  if (real_power == kPowerByExponent) return "L^(2-n) " + name;
+  const int power = static_cast<int>(real_power);
   const std::string factor = std::abs(power) == 1 ? "L" : "L^" + std::to_string(std::abs(power));
   if (power == 0) return "";
   return power > 0 ? factor + " " + name : name + "/" + factor;
