@@ -2,12 +2,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """What all pictures of examples share: colours, where a point of the scene is seen, and the scale bar, the time and the
-colour key below. Needs numpy and PIL."""
-import math
+colour key below. Needs numpy, PIL and LSDCD's shared library, of the folder build or installed."""
+import os
+import sys
 from pathlib import Path
 
-import numpy as np
-from PIL import Image, ImageDraw, ImageFont
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(1, str(ROOT / "src" / "api"))
+for library in (ROOT / "build" / "lib" / "liblsdcd.so.0", ROOT / "build-kokkos" / "lib" / "liblsdcd.so.0"):
+    if library.exists():
+        os.environ.setdefault("LSDCD_LIBRARY", str(library))
+import numpy as np    # noqa: E402
+from PIL import Image, ImageDraw, ImageFont    # noqa: E402
+
+from lsdcd.film import VIRIDIS, Eye, ramp    # noqa: E402
 
 FONT = "DejaVuSans.ttf"
 TEXT = 27     # pixels: read at half of a width of 640
@@ -18,9 +26,6 @@ EDGE = 10    # pixels that bar, key and time stay clear of the left and right ed
 # Okabe and Ito: told apart by every kind of colour vision.
 ORANGE, BLUE, SKY, GREEN, YELLOW, VERMILION = ("#E69F00", "#0072B2", "#56B4E9", "#009E73", "#F0E442", "#D55E00")
 STEEL, DARK = "#B8BDC4", "#50555C"
-# viridis, in nine steps.
-VIRIDIS = np.array([(68, 1, 84), (71, 44, 122), (59, 81, 139), (44, 113, 142), (33, 144, 141), (39, 173, 129), (92, 200, 99),
-                    (170, 220, 50), (253, 231, 37)]) / 255
 
 
 def font(pixels):
@@ -37,31 +42,20 @@ def rgb(colour):
 
 def viridis(share):
     """Colours of numbers from 0 to 1, which are cut off beyond."""
-    at = np.clip(np.asarray(share, float), 0, 1) * (len(VIRIDIS) - 1)
-    low = np.minimum(at.astype(int), len(VIRIDIS) - 2)
-    return VIRIDIS[low] + (at - low)[..., None] * (VIRIDIS[low + 1] - VIRIDIS[low])
+    return ramp(VIRIDIS, np.asarray(share, float)) / 255
 
 
-class View:
+class View(Eye):
     """Looks along a direction as `view` of dump image has it, without perspective, at a box of the scene."""
 
-    def __init__(self, view, box, width):
-        theta, phi = map(math.radians, view)
-        self.back = np.array([math.sin(theta) * math.cos(phi), math.sin(theta) * math.sin(phi), math.cos(theta)])
-        self.right = np.cross((0, 0, 1), self.back)
-        self.right /= np.linalg.norm(self.right)
-        self.up = np.cross(self.back, self.right)
-        box = np.asarray(box, float).reshape(3, 2)
-        self.centre = box.mean(axis=1)
-        corners = np.array(np.meshgrid(*box)).reshape(3, -1).T - self.centre
-        across, high = (2.04 * np.abs(corners @ axis).max() for axis in (self.right, self.up))
-        self.scale = width / across    # pixels a length
-        self.size = width, int(round(high * self.scale))
-        self.far = np.linalg.norm(box[:, 1] - box[:, 0])
+    def __init__(self, view, box, width, finer=1):
+        low, high = np.reshape(box, (3, 2)).T.astype(float)
+        super().__init__((view[1], 90 - view[0]), low, high, width, finer=finer)
+        self.far = np.linalg.norm(high - low)
 
     def pixel(self, point):
-        away = np.asarray(point, float) - self.centre
-        return (self.size[0] / 2 + self.scale * (away @ self.right), self.size[1] / 2 - self.scale * (away @ self.up))
+        right, down, _ = self.place(np.asarray(point, float))
+        return right, down
 
 
 def arrow(picture, camera, points, colour=INK):

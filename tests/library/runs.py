@@ -61,6 +61,21 @@ def dump_text(frames, columns="id type x y z vx vy vz radius"):
     return text
 
 
+def binary_dump(frames, processes=1, columns="id type x y z vx vy vz radius"):
+    """The same as the binary dump of LAMMPS, whose processes write their rows one after another."""
+    def words(text):
+        return struct.pack("<i", len(text)) + text.encode()
+
+    data = b""
+    for step, rows in frames.items():
+        magic = b"DUMPCUSTOM"
+        data += struct.pack("<q", -len(magic)) + magic + struct.pack("<2i2q", 1, 2, step, len(rows)) + struct.pack("<7i6d", 0, *[1] * 6, *(0, 1) * 3)
+        data += struct.pack("<i", len(columns.split())) + words("") + b"\1" + struct.pack("<d", 1e-5 * step) + words(columns) + struct.pack("<i", processes)
+        for part in np.array_split(np.asarray(rows, float), processes):
+            data += struct.pack("<i", part.size) + part.astype("<f8").tobytes()
+    return data
+
+
 def grains(n, seed=1):
     """Rows of a dump, not in the order of their ids."""
     random = np.random.default_rng(seed)

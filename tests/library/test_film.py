@@ -3,6 +3,7 @@
 
 """Films of runs, lsdcd.film: where grains and meshes are on the picture, colours, frames, and words that are refused."""
 import math
+import random
 import shutil
 import subprocess
 import sys
@@ -11,10 +12,10 @@ import numpy as np
 import pytest
 
 from facts import at_most, fact
-from runs import TRIANGLE, dump_text, log_text, vtp_text, write_run
+from runs import TRIANGLE, binary_dump, dump_text, grains, log_text, vtp_text, write_run
 
 Image = pytest.importorskip("PIL.Image", reason="no Pillow (Debian: python3-pil)")
-from lsdcd import film    # noqa: E402
+from lsdcd import _run_files as files, film    # noqa: E402
 
 BOX = np.array([[0.0, 0, 0], [1, 1, 1]])
 
@@ -47,7 +48,7 @@ def is_coloured(pixels):
     ("top", (1, 0, 0), (0, 1, 0)), ("bottom", (1, 0, 0), (0, -1, 0)), ("0,90", (0, 1, 0), (-1, 0, 0)),
     ("30,0", (-0.5, math.sqrt(0.75), 0), (0, 0, 1))))
 def test_views(word, right, up):
-    eye = film.Eye(film.view(word), *BOX, 200, 200)
+    eye = film.Eye(film.view(word), *BOX, 200)
     at_most("right", np.abs(eye.right - right).max(), 1e-12)
     at_most("up", np.abs(eye.up - up).max(), 1e-12)
     at_most("towards the eye", np.abs(eye.back - np.cross(right, up)).max(), 1e-12)
@@ -72,8 +73,8 @@ def test_a_grain_is_where_it_is(folder):
     width, height = np.ptp(x) + 1, np.ptp(y) + 1
     fact("a disc", abs(width - height) <= 2 and abs(its.sum() / (math.pi * width * height / 4) - 1) < 0.05, (width, height))
     fact("left and above", x.mean() < 100 and y.mean() < 100, (x.mean(), y.mean()))
-    # The picture shows bounds with all radii of a snapshot, from 0 to 1 and so, in 0.94 x 0.92 of its height.
-    at_most("its size", abs(width / 300 / (0.47 * 0.92 * 2 * 0.2 / 1.1) - 1), 0.12)
+    # The picture shows the bounds with the largest radius of the snapshot, from 0 to 1.1, in 1/1.02 of what the words leave of its height.
+    at_most("its size", abs(width / ((300 - 18) / 1.02 * 0.2 / 1.1) - 1), 0.06)
 
 
 def test_from_the_back_it_is_on_the_other_side(folder):
@@ -100,6 +101,114 @@ def test_a_mesh_in_front_is_glass(folder):
     fact("but seen", colours["behind"][2] - colours["behind"][0] > 30, colours)
 
 
+def test_a_solid_mesh_hides_what_is_behind_it(folder):
+    """Of two grains the one behind the plate is not seen, and the plate is not what is behind a second one."""
+    at = fresh(folder, "solid")
+    (at / "log.lammps").write_text(log_text(["KinEng"], [[1.0]] * 3))
+    (at / "grains.dump").write_text(dump_text({0: [[1, 1, 0.3, 0.9, 0.5, 1, 0, 0, 0.1], [2, 2, 0.7, -0.9, 0.5, 1, 0, 0, 0.1]]}))
+    square = [[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]]
+    for name, y, worn in (("p", 0, 0), ("q", 0.5, 1)):
+        (at / f"{name}_0.vtp").write_text(vtp_text([[a, y, c] for a, _, c in square], TRIANGLE[1], {"worn_depth": [worn, worn]}))
+        (at / f"{name}_series.pvd").write_text(f'<DataSet timestep="0" part="0" file="{name}_0.vtp"/>\n')
+    seen = {}
+    for word in ("--solid", "--log=log.lammps"):
+        command(".", "-o", "f_*.png", "--view", "front", "--colour", "kind", "--field", "worn_depth", "--width", 200, "--height", 200, word, cwd=at)
+        seen[word] = frames_of(at / "f_0.png")[0]
+    fact("no blue", not (seen["--solid"][:160, :100, 2] > seen["--solid"][:160, :100, 0] + 60).any())
+    fact("but orange", (seen["--solid"][:160, 100:, 0] > seen["--solid"][:160, 100:, 2] + 60).any())
+    fact("the plate in front has no worn depth, and the one behind is yellow", np.ptp(seen["--solid"][30, 30]) < 20 and np.ptp(seen["--log=log.lammps"][30, 30]) > 60,
+         (seen["--solid"][30, 30], seen["--log=log.lammps"][30, 30]))
+
+
+def test_a_jump_of_depth_is_a_line(folder):
+    """The rim of a grain against paper is darker than its middle, by more than its shade."""
+    eye = film.Eye(film.view("front"), *BOX, 100)
+    layer = film.Layer(eye)
+    layer.spheres(np.array([[0.5, 0, 0.5]]), np.array([0.3]), np.full((1, 3), 255.0))
+    pixels = np.array(film.composed(layer, film.Shell(eye), False).convert("L")).astype(float)
+    plain = layer.colour.reshape(100, 100, 3)[:, :, 0]
+    is_grain = np.isfinite(layer.depth).reshape(100, 100)
+    rim = is_grain & ~np.roll(is_grain, 1, axis=0)
+    at_most("the middle", np.abs(pixels - plain)[40:60, 40:60].max(), 1.0)
+    at_most("the rim", (pixels / plain)[rim].max(), 0.6)
+
+
+def test_a_top_of_colours(folder):
+    """A grain of speed 1 has the last colour where colours end at 1, and a dark one where they end at 10."""
+    bright = one_grain(folder, "top", top=1, view="front", width=200)
+    dark = one_grain(folder, "top", top=10, view="front", width=200)
+    shown = slice(0, 60), slice(0, 60)
+    fact("bright", bright[shown].min(axis=2)[is_coloured(bright[shown])].mean() > 2 * dark[shown].min(axis=2)[is_coloured(dark[shown])].mean())
+
+
+def test_the_height_is_that_of_the_bounds():
+    for high, height in ((0.5, 50), (1, 100), (5, 200), (0, 5)):
+        eye = film.Eye(film.view("front"), np.zeros(3), np.array([1, 1, high]), 100)
+        fact("half as high, as high, at most twice, at least a twentieth", eye.size == (100, height), eye.size)
+
+
+def test_jobs_draw_the_same(folder):
+    at = fresh(folder, "jobs")
+    write_run(at)
+    for jobs in (1, 3):
+        done = command(".", "-o", f"f{jobs}_*.png", "--width", 80, "--jobs", jobs, cwd=at)
+        fact("it ends well", done.returncode == 0, done.stderr)
+    one = sorted(at.glob("f1_*.png"))
+    fact("bytes", len(one) > 3 and all(path.read_bytes() == (at / f"f3{path.name[2:]}").read_bytes() for path in one), len(one))
+
+
+def test_a_film_of_few_bytes(folder):
+    at = fresh(folder, "bytes")
+    write_run(at)
+    sizes = []
+    for words in ([], ["--bytes", 5000]):
+        done = command(".", "--width", 80, *words, cwd=at)
+        sizes.append((at / "film.gif").stat().st_size)
+        fact("it says how many", f"colours, {sizes[-1]} bytes" in done.stdout, done.stdout)
+    fact("fewer", sizes[1] < sizes[0], sizes)
+
+
+@pytest.mark.parametrize("processes", (1, 3))
+def test_a_binary_dump_draws_as_its_text(folder, processes):
+    at = fresh(folder, "binary")
+    rows = np.array([[float(f"{value:.6g}") for value in row] for row in grains(200)])
+    for name, columns in (("text", ""), ("binary", "dump a all custom 100 grains_*.bin id type x y z vx vy vz radius\n")):
+        (at / name).mkdir()
+        (at / name / "log.lammps").write_text(columns + log_text(["KinEng"], [[1.0]] * 3))
+    for step, order in ((0, rows), (100, rows[::-1])):
+        (at / "binary" / f"grains_{step}.bin").write_bytes(binary_dump({step: order}, processes))
+    (at / "text" / "grains.dump").write_text(dump_text({0: rows, 100: rows[::-1]}))
+    for name in ("text", "binary"):
+        done = command(name, "-o", f"{name}_*.png", "--width", 80, cwd=at)
+        fact("it ends well", done.returncode == 0, done.stderr)
+    for step in (0, 100):
+        fact("the same bytes", (at / f"text_{step}.png").read_bytes() == (at / f"binary_{step}.png").read_bytes(), step)
+
+
+def test_a_binary_dump_that_is_cut_off_or_damaged(folder):
+    at = fresh(folder, "cut")
+    whole = binary_dump({0: grains(20), 100: grains(20)}, 2)
+    for length in range(0, len(whole), 37):
+        (at / "g.bin").write_bytes(whole[:length])
+        try:
+            frames = files.index_binary_dump(at / "g.bin")
+        except files.InputError:
+            fact("within the first bytes", length < 40, length)
+            continue
+        fact("whole frames", len(frames) == (length * 2 >= len(whole)), (length, len(frames)))
+    chance = random.Random(5)
+    for _ in range(500):
+        damaged = bytearray(whole)
+        for _ in range(3):
+            damaged[chance.randrange(len(damaged))] = chance.randrange(256)
+        (at / "g.bin").write_bytes(damaged)
+        try:
+            for frame in files.index_binary_dump(at / "g.bin"):
+                files.read_grains(frame)
+        except files.InputError:
+            pass
+
+
 def test_colours_of_a_field(folder):
     """One triangle has all of the worn depth, and is yellow; the other, which has none, is violet."""
     at = fresh(folder, "field")
@@ -124,6 +233,7 @@ def test_frames(folder):
         fact("frames and size", (image.n_frames, image.size) == (4, (100, 80)), (image.n_frames, image.size))
         fact("500 ms each", image.info["duration"] == 500, image.info)
     found = frames_of(at / "film.gif")
+    fact("paper is white", all((pixels[-1, -1] == 255).all() for pixels in found), [pixels[-1, -1] for pixels in found])
     fact("they differ", all((a != b).any() for a, b in zip(found, found[1:])))
 
 
@@ -145,6 +255,9 @@ def test_pictures_have_the_step_in_their_names(folder):
     (["run", "--width", "10"], 2, "'10' is no number of pixels from 50 to 4000"),
     (["run", "--cut", "1"], 2, "'1' is no share"),
     (["run", "--frames", "0"], 2, "'0' is no whole number from 1 to 10000"),
+    (["run", "--bytes", "10"], 2, "'10' is no whole number from 1000"),
+    (["run", "--jobs", "0"], 2, "'0' is no whole number from 1 to 10000"),
+    (["run", "--top", "0"], 2, "'0' is no number above 0"),
     (["run", "--seconds", "-1"], 2, "'-1' is no number above 0"),
     (["run", "--colour", "red"], 2, "invalid choice: 'red'")))
 def test_refused(folder, words, code, said):

@@ -541,6 +541,8 @@ class Frame:
     path: pathlib.Path
     begin: int                 # of its rows, in bytes
     end: int
+    binary: bool = False
+    time: float | None = None
 
 
 def _opened(path: pathlib.Path) -> BinaryIO:
@@ -599,6 +601,52 @@ def _head(path: pathlib.Path, head: bytes, begin: int, end: int) -> Frame | None
     return Frame(step, n, box, head[at + 11:stop].decode("ascii", "replace").split(), path, begin + stop + 1, end)
 
 
+def index_binary_dump(path: pathlib.Path) -> list[Frame]:
+    """Snapshots of a binary dump, as LAMMPS writes it since 2020, without their rows and without one that is cut off."""
+    frames: list[Frame] = []
+    size = path.stat().st_size
+    try:
+        with open(path, "rb") as file:
+            while file.tell() < size:
+                frames.append(_binary_frame(path, file, size))
+    except EOFError:    # the run goes on, or has been stopped
+        pass
+    except OSError as error:
+        raise InputError(f"{path.name} cannot be read: {error}") from None
+    return frames
+
+
+def _binary_frame(path: pathlib.Path, file: BinaryIO, size: int) -> Frame:
+    """The snapshot that begins here, up to its end. Raises EOFError where it is not whole."""
+    def take(kind: str, count: int = 1) -> Array:
+        length = np.dtype(kind).itemsize * count
+        if not 0 <= length <= size - file.tell():
+            raise EOFError
+        return np.frombuffer(file.read(length), kind)
+
+    magic = -int(take("<i8")[0])
+    if not 0 < magic < 64 or not take("u1", magic).tobytes().startswith(b"DUMP") or int(take("<i4")[0]) != 1:
+        raise InputError(f"{path.name} is no binary dump (dump ID group custom N FILE.bin ...) of a LAMMPS of 2020 or later")
+    take("<i4")    # revision
+    step, n = (int(number) for number in take("<i8", 2))
+    tilted = int(take("<i4")[0])
+    take("<i4", 6)    # kinds of boundaries
+    box = take("<f8", 9 if tilted else 6)[:6].reshape(3, 2)
+    width = int(take("<i4")[0])
+    take("u1", int(take("<i4")[0]))    # units
+    time = float(take("<f8")[0]) if take("u1")[0] else None
+    columns = take("u1", int(take("<i4")[0])).tobytes().decode("ascii", "replace").split()
+    if width != len(columns):
+        raise InputError(f"{path.name} is damaged at step {step}: {width} columns with {len(columns)} names")
+    begin = file.tell()
+    for _ in range(int(take("<i4")[0])):    # processes, each with its rows
+        numbers = int(take("<i4")[0])
+        if not 0 <= 8 * numbers <= size - file.tell():
+            raise EOFError
+        file.seek(8 * numbers, 1)
+    return Frame(step, n, box, columns, path, begin, file.tell(), True, time)
+
+
 def lots(ids: Array) -> Array:
     """A number from 0 to 1 for each grain, by its id: those below a share are the same grains in each snapshot."""
     return (ids.astype(np.int64) * 2654435761 % 2 ** 32) / 2 ** 32
@@ -606,6 +654,8 @@ def lots(ids: Array) -> Array:
 
 def read_rows(frame: Frame, wanted: list[str], share: float) -> tuple[dict[str, Array], Array] | None:
     """Columns of a share of the grains of a snapshot, in the order of their ids, and their lots. None: the snapshot is not whole."""
+    if frame.binary:
+        return _binary_rows(frame, wanted, share)
     with _opened(frame.path) as file:
         file.seek(frame.begin)
         text = file.read(frame.end - frame.begin)
@@ -629,6 +679,25 @@ def read_rows(frame: Frame, wanted: list[str], share: float) -> tuple[dict[str, 
     except (ValueError, IndexError):
         return None
     return columns, drawn[chosen]
+
+
+def _binary_rows(frame: Frame, wanted: list[str], share: float) -> tuple[dict[str, Array], Array] | None:
+    data, at, parts = np.fromfile(frame.path, "u1", frame.end - frame.begin, offset=frame.begin), 4, []
+    while at + 4 <= len(data):
+        end = at + 4 + 8 * int(data[at:at + 4].view("<i4")[0])
+        parts.append(data[at + 4:end].tobytes())
+        at = end
+    numbers = np.frombuffer(b"".join(parts), "<f8")
+    if len(numbers) != frame.n * len(frame.columns):
+        return None
+    rows = dict(zip(frame.columns, numbers.reshape(frame.n, len(frame.columns)).T))
+    ids = rows.get("id", np.arange(frame.n))
+    if not np.isfinite(ids).all():
+        return None
+    drawn = lots(ids)
+    chosen = np.flatnonzero(drawn < share)
+    chosen = chosen[np.argsort(ids[chosen], kind="stable")]
+    return {name: rows[name][chosen] for name in wanted}, drawn[chosen]
 
 
 def _ids(frame: Frame, text: bytes, data: Array, begins: Array, ends: Array) -> Array:
@@ -706,7 +775,7 @@ def read_grains(frame: Frame, share: float = 1.0) -> Grains | None:
 
 
 def dump_files(folder: pathlib.Path, log: Log) -> list[pathlib.Path]:
-    """Text dumps of grains: those that the log names, else those whose names say so."""
+    """Dumps of grains: those that the log names, else those whose names say so."""
     found: list[pathlib.Path] = []
     for name in log.dumps:
         if "*" in name:
@@ -715,7 +784,7 @@ def dump_files(folder: pathlib.Path, log: Log) -> list[pathlib.Path]:
             found.append(folder / name)
     if not found:
         found = sorted({*folder.glob("*.dump"), *folder.glob("dump.*"), *folder.glob("*.lammpstrj")})
-    images = (".png", ".jpg", ".jpeg", ".ppm", ".mp4", ".avi", ".bin", ".vtk", ".vtp", ".vtu", ".zst")
+    images = (".png", ".jpg", ".jpeg", ".ppm", ".mp4", ".avi", ".vtk", ".vtp", ".vtu", ".zst")
     return [path for path in dict.fromkeys(found) if path.is_file() and path.suffix not in images]
 
 
@@ -725,7 +794,7 @@ def grain_frames(folder: pathlib.Path, log: Log, notes: list[str]) -> list[Frame
     by_series: dict[str, dict[int, Frame]] = {}
     for path in dump_files(folder, log):
         try:
-            frames = [frame for frame in index_dump(path) if place_columns(frame.columns)]
+            frames = [frame for frame in (index_binary_dump if path.suffix == ".bin" else index_dump)(path) if place_columns(frame.columns)]
         except InputError as error:
             notes.append(str(error))
             continue

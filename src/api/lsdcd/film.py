@@ -9,11 +9,15 @@ Needs Pillow (Debian: python3-pil). doc/report.md of the sources says more."""
 from __future__ import annotations
 
 import argparse
+import concurrent.futures.process
 import dataclasses
 import math
+import multiprocessing
+import os
 import pathlib
+import signal
 import sys
-from typing import Any, Iterator
+from typing import Any, Callable, Iterator, Sequence
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -24,6 +28,8 @@ from ._run_files import Array, Frame, Grains, InputError, Log, Surface, unit_tex
 from .report import EMPTY, Moving, colour_top, moving_meshes, nearest_of, thinned
 
 FINER = 2              # a pixel is the mean of so many by so many
+EDGE = 1.02            # the picture is so many times as wide as what it shows
+ROW = 14               # pixels: height of a row of words below
 SAMPLE = 3000          # grains of a snapshot, for bounds and colours
 GLASS = 0.25           # of what is seen is the mesh in front of grains
 LIGHT = np.array([-0.4, 0.55, 0.73])    # where it is: right, up, towards the eye
@@ -39,29 +45,31 @@ VIEWS = {"front": (-90.0, 0.0), "back": (90.0, 0.0), "left": (180.0, 0.0), "righ
 def ramp(colours: Array, share: Array) -> Array:
     """Colours of numbers from 0 to 1."""
     at = np.clip(share, 0, 1) * (len(colours) - 1)
-    k = np.minimum(at.astype(int), len(colours) - 2)
-    return np.asarray(colours[k] + (colours[k + 1] - colours[k]) * (at - k)[:, None])
+    k = np.minimum(np.asarray(at).astype(int), len(colours) - 2)
+    return np.asarray(colours[k] + (colours[k + 1] - colours[k]) * (at - k)[..., None])
 
 
 class Eye:
-    """Where places of the box are on a picture of w x h pixels that shows the bounds whole."""
+    """Where places are on a picture that shows the bounds whole. Without a height the picture is as high as these need, up to twice its
+    width. It is drawn with `finer` times as many pixels each way."""
 
-    def __init__(self, view: tuple[float, float], low: Array, high: Array, width: int, height: int) -> None:
+    def __init__(self, view: tuple[float, float], low: Array, high: Array, width: int, height: int | None = None, finer: int = 1) -> None:
         turn, tilt = (math.radians(angle) for angle in view)
         self.back = np.array([math.cos(tilt) * math.cos(turn), math.cos(tilt) * math.sin(turn), math.sin(tilt)])
         self.right = np.array([-math.sin(turn), math.cos(turn), 0.0])
         self.up = np.cross(self.back, self.right)
-        self.size = width, height
         self.centre = (low + high) / 2
         corners = np.array([[(low, high)[i][0], (low, high)[j][1], (low, high)[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)]) - self.centre
-        across, along = np.abs(corners @ self.right).max(), np.abs(corners @ self.up).max()
-        self.scale = 0.47 * min(width / max(across, 1e-300), 0.92 * height / max(along, 1e-300))
-        self.deep = float(np.abs(corners @ self.back).max())
+        across, along, self.deep = (2 * float(np.abs(corners @ axis).max()) for axis in (self.right, self.up, self.back))
+        if height is None:
+            height = round(min(max(width * along / max(across, 1e-300), width / 20), 2 * width))
+        self.finer, self.size = finer, (finer * width, finer * height)
+        self.scale = min(self.size[0] / max(across, 1e-300), self.size[1] / max(along, 1e-300)) / EDGE
 
     def place(self, points: Array) -> tuple[Array, Array, Array]:
         """Pixels right and down, and towards the eye."""
         away = points - self.centre
-        return self.size[0] / 2 + self.scale * (away @ self.right), 0.48 * self.size[1] - self.scale * (away @ self.up), self.scale * (away @ self.back)
+        return self.size[0] / 2 + self.scale * (away @ self.right), self.size[1] / 2 - self.scale * (away @ self.up), self.scale * (away @ self.back)
 
 
 class Layer:
@@ -120,7 +128,7 @@ class Shell:
         normal = across / np.maximum(np.linalg.norm(across, axis=1), 1e-300)[:, None]
         facing = np.stack([normal @ axis for axis in (self.eye.right, self.eye.up, self.eye.back)], axis=1)
         facing *= np.where(facing[:, 2] < 0, -1, 1)[:, None]    # both sides are seen
-        colours = colours * (0.5 + 0.5 * np.clip(facing @ LIGHT, 0, None))[:, None]
+        colours = colours * (0.45 + 0.55 * np.clip(facing @ LIGHT, 0, None))[:, None]
         # The shortest edge first, so that a sliver has few points across.
         edges = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
         corners = np.take_along_axis(corners, ((edges.argmin(axis=1)[:, None] + np.arange(3)) % 3)[..., None], axis=1)
@@ -137,6 +145,38 @@ class Shell:
                     layer.put(x[sorted_so], y[sorted_so], z[sorted_so], np.repeat(colours[some], len(a), axis=0)[sorted_so])
 
 
+def composed(grains: Layer, mesh: Shell, solid: bool) -> Image.Image:
+    """The picture of grains in a mesh, which is as of glass or hides what is behind it. Lines are drawn where the depth jumps."""
+    eye, near, far = grains.eye, mesh.near, mesh.far
+    colour, depth = np.tile(np.array(PAPER, float), (len(grains.depth), 1)), np.full(len(grains.depth), -np.inf)
+
+    def lay(layer: Layer, above: Array, share: float = 1.0) -> None:
+        colour[above] += share * (layer.colour[above] - colour[above])
+
+    if solid:
+        for layer in (near, grains):
+            above = layer.depth > depth
+            lay(layer, above)
+            depth[above] = layer.depth[above]
+    else:
+        has_mesh, has_grain = np.isfinite(far.depth), np.isfinite(grains.depth)
+        lay(far, has_mesh)
+        lay(grains, has_grain)
+        for layer, place in ((far, -far.depth), (near, near.depth)):    # what is in front of a grain
+            lay(layer, has_grain & has_mesh & (place > grains.depth), GLASS)
+        depth = np.where(has_grain, grains.depth, -far.depth * np.where(has_mesh, 1, np.nan))
+        depth[np.isnan(depth)] = -np.inf
+    is_paper = np.isinf(depth)
+    depth[is_paper] = depth.min(initial=0, where=~is_paper) - 50 * eye.finer
+    shape = eye.size[1], eye.size[0]
+    depth, jump = depth.reshape(shape), np.zeros(shape)
+    jump[1:] = np.maximum(jump[1:], np.abs(np.diff(depth, axis=0)))
+    jump[:, 1:] = np.maximum(jump[:, 1:], np.abs(np.diff(depth, axis=1)))
+    dark = 1 - 0.45 * np.clip(jump / (8 * eye.finer) - 0.5, 0, 1)
+    shown = np.clip(colour.reshape(*shape, 3) * dark[..., None], 0, 255)
+    return Image.fromarray((shown + 0.5).astype(np.uint8)).reduce(eye.finer)
+
+
 @dataclasses.dataclass
 class Scene:
     """A run and how it is drawn."""
@@ -150,6 +190,8 @@ class Scene:
     colour: str
     top_of_colour: float
     cut: float
+    solid: bool
+    bars: list[tuple[Array, float, str]]    # below the picture: colours, where they end, and of what
     drawn: dict[str, tuple[int, Shell]] = dataclasses.field(default_factory=dict)
 
     def mesh_colours(self, mesh: Moving, surface: Surface) -> Array:
@@ -167,7 +209,7 @@ class Scene:
 
     def is_kept(self, points: Array) -> Array:
         """Is a place behind the cut?"""
-        return np.asarray((points - self.eye.centre) @ self.eye.back <= self.eye.deep * (1 - 2 * self.cut))
+        return np.asarray((points - self.eye.centre) @ self.eye.back <= self.eye.deep * (0.5 - self.cut))
 
     def shell(self, mesh: Moving, k: int) -> Shell:
         """A mesh as one of its files has it. The last one is kept, because most meshes stay as they are for long."""
@@ -180,45 +222,46 @@ class Scene:
         self.drawn[mesh.name] = k, shell
         return shell
 
-    def picture(self, k: int, finer: int) -> Image.Image:
-        """The picture of a step of the film, with grains in the mesh as in glass."""
-        solid, all_meshes = Layer(self.eye), Shell(self.eye)
+    def picture(self, k: int) -> Image.Image:
+        """The picture of a step of the film."""
+        grains_shown, meshes_shown = Layer(self.eye), Shell(self.eye)
         for mesh in self.meshes if self.field != "hidden" else []:
-            all_meshes.merge(self.shell(mesh, nearest_of([entry.step for entry in mesh.entries], [self.steps[k]])[0] if mesh.entries else 0))
-        near, far = all_meshes.near, all_meshes.far
+            meshes_shown.merge(self.shell(mesh, nearest_of([entry.step for entry in mesh.entries], [self.steps[k]])[0] if mesh.entries else 0))
         if self.frames and self.colour != "hidden":
             frame = self.frames[nearest_of([frame.step for frame in self.frames], [self.steps[k]])[0]]
             grains = files.read_grains(frame)
             if grains is not None and len(grains.place):
                 kept = self.is_kept(grains.place)
-                solid.spheres(grains.place[kept], grains.radius[kept], self.grain_colours(grains)[kept])
-        shown = np.tile(np.array(PAPER, float), (len(solid.depth), 1))
-        has_mesh, has_grain = np.isfinite(far.depth), np.isfinite(solid.depth)
-        shown[has_mesh] = far.colour[has_mesh]
-        shown[has_grain] = solid.colour[has_grain]
-        for layer, depth in ((far, -far.depth), (near, near.depth)):    # what is in front of a grain
-            glass = has_grain & has_mesh & (depth > solid.depth)
-            shown[glass] += GLASS * (layer.colour[glass] - shown[glass])
-        picture = Image.fromarray((shown.reshape(self.eye.size[1], self.eye.size[0], 3) + 0.5).astype(np.uint8)).reduce(finer)
-        self.label(picture, self.log.times(np.array([self.steps[k]]))[0])
-        return picture
+                grains_shown.spheres(grains.place[kept], grains.radius[kept], self.grain_colours(grains)[kept])
+        return self.labelled(composed(grains_shown, meshes_shown, self.solid), self.log.times(np.array([self.steps[k]]))[0])
 
-    def label(self, picture: Image.Image, time: float) -> None:
-        """Writes the time, and what colours mean."""
-        draw, at = ImageDraw.Draw(picture), picture.height - 16
+    def labelled(self, picture: Image.Image, time: float) -> Image.Image:
+        """The picture above the time and what colours mean."""
+        whole = Image.new("RGB", (picture.width, picture.height + height_of_words(len(self.bars))), PAPER)
+        whole.paste(picture)
+        draw, at = ImageDraw.Draw(whole), whole.height - ROW - 2
         draw.text((8, at), f"{time:.4g} {self.log.time_unit}", fill=INK)
-        bars = []
-        if self.colour in ("speed", "size") and self.top_of_colour and self.frames:
-            kind = "velocity" if self.colour == "speed" else "distance"
-            bars.append((HEAT, self.top_of_colour, unit_text(kind, self.log.units), "speed" if self.colour == "speed" else "diameter"))
-        bars += [(VIRIDIS, top, unit_text(files.OF_FIELDS.get(self.field, ""), self.log.units), self.field.replace("_", " ") + (f", {name}" if len(self.top_of_field) > 1 else ""))
-                 for name, top in self.top_of_field.items()]
-        for row, (colours, top, unit, words) in enumerate(bars[:4]):
-            y = at - 14 * row
+        for row, (colours, top, words) in enumerate(self.bars):
+            y = at - ROW * row
             for x in range(60):
                 colour = ramp(colours, np.array([x / 59]))[0]
                 draw.line([(110 + x, y + 2), (110 + x, y + 8)], fill=(int(colour[0]), int(colour[1]), int(colour[2])))
-            draw.text((176, y), f"{top:.3g} {unit}: {words}", fill=INK)
+            draw.text((176, y), f"{top:.3g} {words}", fill=INK)
+        return whole
+
+
+def height_of_words(bars: int) -> int:
+    return ROW * max(bars, 1) + 4
+
+
+def colour_bars(given: argparse.Namespace, log: Log, top_of_colour: float, top_of_field: dict[str, float]) -> list[tuple[Array, float, str]]:
+    bars = []
+    if given.colour in ("speed", "size") and top_of_colour:
+        kind, words = ("velocity", "speed") if given.colour == "speed" else ("distance", "diameter")
+        bars.append((HEAT, top_of_colour, f"{unit_text(kind, log.units)}: {words}"))
+    unit, words = unit_text(files.OF_FIELDS.get(given.field, ""), log.units), given.field.replace("_", " ")
+    bars += [(VIRIDIS, top, f"{unit}: {words}{f', {name}' if len(top_of_field) > 1 else ''}") for name, top in top_of_field.items()]
+    return bars[:4]
 
 
 def scene_of(given: argparse.Namespace, notes: list[str]) -> Scene:
@@ -245,16 +288,18 @@ def scene_of(given: argparse.Namespace, notes: list[str]) -> Scene:
     tops = {mesh.name: colour_top(np.concatenate([surface.fields[given.field] for surface in mesh.surfaces if given.field in surface.fields] or [np.zeros(0)]))
             for mesh in meshes}
     values = [grains.speed if given.colour == "speed" else 2 * grains.radius for grains in samples]
-    eye = Eye(given.view, low, high, FINER * given.width, FINER * given.height)
-    return Scene(log, meshes, [frame for frame, _ in whole], steps, eye, given.field, {name: top for name, top in tops.items() if top}, given.colour,
-                 colour_top(np.concatenate(values)) if values else 0.0, given.cut)
+    top_of_field = {name: top for name, top in tops.items() if top}
+    top_of_colour = (given.top or colour_top(np.concatenate(values))) if values else 0.0
+    bars = colour_bars(given, log, top_of_colour, top_of_field)
+    eye = Eye(given.view, low, high, given.width, given.height - height_of_words(len(bars)) if given.height else None, FINER)
+    return Scene(log, meshes, [frame for frame, _ in whole], steps, eye, given.field, top_of_field, given.colour, top_of_colour, given.cut, given.solid, bars)
 
 
 # ---- the command -------------------------------------------------------------------------
 
 
-HELP = """Draws the meshes and grains of a run of LAMMPS as a film (.gif), or as a picture for each step (.png): what mesh_fields and a text dump have
-written. Grains are seen through the mesh as through glass."""
+HELP = """Draws the meshes and grains of a run of LAMMPS as a film (.gif), or as a picture for each step (.png): what mesh_fields and a dump have
+written. Grains are seen through the mesh as through glass, or with --solid where it does not hide them."""
 EXAMPLE = f"""Example:
   lsdcd film . --view front
 
@@ -273,16 +318,15 @@ def view(word: str) -> tuple[float, float]:
     return turn, tilt
 
 
-def pixels(word: str) -> int:
-    if not word.isdigit() or not 50 <= int(word) <= 4000:
-        raise argparse.ArgumentTypeError(f"'{word}' is no number of pixels from 50 to 4000")
-    return int(word)
+def count_of(least: int, most: int, what: str = "whole number") -> Callable[[str], int]:
+    def read(word: str) -> int:
+        if not (word.isascii() and word.isdigit()) or not least <= int(word) <= most:
+            raise argparse.ArgumentTypeError(f"'{word}' is no {what} from {least} to {most}")
+        return int(word)
+    return read
 
 
-def count(word: str) -> int:
-    if not word.isdigit() or not 1 <= int(word) <= 10000:
-        raise argparse.ArgumentTypeError(f"'{word}' is no whole number from 1 to 10000")
-    return int(word)
+pixels, count = count_of(50, 4000, "number of pixels"), count_of(1, 10000)
 
 
 def share(word: str) -> float:
@@ -303,18 +347,64 @@ def options() -> argparse.ArgumentParser:
     parser.add_argument("--colour", choices=("speed", "size", "kind", "plain", "hidden"), default="speed", help="of grains (default: %(default)s)")
     parser.add_argument("--field", default="plain", metavar="NAME", help="by which meshes are coloured: normal_stress, worn_depth, impact_energy, "
                         "dissipated_energy and others of mesh_fields, plain, or hidden (default: %(default)s)")
+    parser.add_argument("--top", type=above_zero, metavar="NUMBER", help="the speed or size at which colours of grains end, so that those of several films mean the same "
+                        "(default: what 98 %% do not exceed)")
+    parser.add_argument("--solid", action="store_true", help="meshes hide what is behind them")
     parser.add_argument("--cut", type=share, default=0.0, metavar="SHARE", help="take away this share of what is in front (default: 0)")
     parser.add_argument("--width", type=pixels, default=480, help="of the picture, pixels (default: %(default)s)")
-    parser.add_argument("--height", type=pixels, default=480, help="likewise (default: %(default)s)")
+    parser.add_argument("--height", type=pixels, help="likewise (default: what the bounds need)")
     parser.add_argument("--frames", type=count, default=60, metavar="N", help="at most so many, evenly over the run (default: %(default)s)")
     parser.add_argument("--seconds", type=above_zero, default=6.0, help="how long the film takes (default: %(default)s)")
+    parser.add_argument("--bytes", type=count_of(1000, 10**12), metavar="N", help="take fewer colours until the film has no more bytes than that")
+    parser.add_argument("--jobs", type=count, default=os.cpu_count() or 1, metavar="N", help="frames that are drawn at once (default: one a core)")
     parser.add_argument("--log", metavar="FILE", help="the log, if it is not log.lammps")
     return parser
 
 
-def pictures(scene: Scene) -> Iterator[Image.Image]:
-    for k in range(len(scene.steps)):
-        yield scene.picture(k, FINER)
+_draw: Callable[[int], Image.Image]    # of the processes that on_cores starts
+
+
+def _drawn(k: int) -> Image.Image:
+    return _draw(k)
+
+
+def _let_the_parent_stop() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def on_cores(draw: Callable[[int], Image.Image], count: int, jobs: int) -> Iterator[Image.Image]:
+    """Pictures 0 to count - 1 in their order; `jobs` processes draw them."""
+    global _draw
+    if min(jobs, count) < 2 or "fork" not in multiprocessing.get_all_start_methods():
+        yield from map(draw, range(count))
+        return
+    _draw = draw
+    jobs = min(jobs, count)
+    with concurrent.futures.ProcessPoolExecutor(jobs, multiprocessing.get_context("fork"), _let_the_parent_stop) as pool:
+        try:
+            yield from pool.map(_drawn, range(count), chunksize=max(1, min(8, count // jobs)))
+        except concurrent.futures.process.BrokenProcessPool:
+            raise InputError(f"a process that drew was stopped, maybe for lack of memory: draw fewer frames at once, as with --jobs {jobs // 2}") from None
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def write_film(frames: Sequence[Image.Image], path: pathlib.Path, milliseconds: int, most: float = math.inf, samples: Sequence[Image.Image] = ()) -> int:
+    """Writes a GIF whose frames have the same colours, those of `samples` or of some frames: as many as keep it at `most` bytes, or 12. Returns how many."""
+    samples = samples or frames[::max(1, len(frames) // 8)]
+    sheet = Image.new("RGB", (samples[0].width, samples[0].height * len(samples)))
+    for k, one in enumerate(samples):
+        sheet.paste(one, (0, k * one.height))
+    for colours in (256, 128, 96, 64, 48, 32, 24, 16, 12):
+        palette = sheet.quantize(colours, kmeans=2)
+        table = np.array(palette.getpalette()).reshape(-1, 3)
+        table[table.sum(axis=1).argmax()] = PAPER    # the lightest, which else is a grey by some bits
+        palette.putpalette(table.ravel().tolist())
+        flat = [one.quantize(palette=palette, dither=Image.Dither.NONE) for one in frames]
+        saved(flat[0], path, save_all=True, append_images=flat[1:], duration=milliseconds, loop=0, optimize=True)
+        if path.stat().st_size <= most:
+            break
+    return colours
 
 
 def saved(image: Image.Image, path: pathlib.Path, **more: Any) -> None:
@@ -338,13 +428,15 @@ def run(given: argparse.Namespace) -> None:
     scene = scene_of(given, notes)
     for note in notes:
         print(note)
+    pictures = on_cores(scene.picture, len(scene.steps), given.jobs)
     if output.suffix == ".png":
-        for step, picture in zip(scene.steps, pictures(scene)):
+        for step, picture in zip(scene.steps, pictures):
             saved(picture, output.with_name(output.name.replace("*", f"{step:.0f}")))
+        print(f"{output}: {len(scene.steps)} frame{'s' if len(scene.steps) > 1 else ''}")
     else:
-        colours = [picture.quantize(256) for picture in pictures(scene)]
-        saved(colours[0], output, save_all=True, append_images=colours[1:], duration=max(20, round(1000 * given.seconds / len(colours))), loop=0)
-    print(f"{output}: {len(scene.steps)} frame{'s' if len(scene.steps) > 1 else ''}")
+        frames = list(pictures)
+        colours = write_film(frames, output, max(20, round(1000 * given.seconds / len(frames))), given.bytes or math.inf)
+        print(f"{output}: {len(frames)} frame{'s' if len(frames) > 1 else ''}, {colours} colours, {output.stat().st_size} bytes")
 
 
 if __name__ == "__main__":
