@@ -124,7 +124,7 @@ void follow_table(Pose &pose, const MotionTerm &m, Time t, Real step)
 {
   const TablePlace place = m.table->at(t);
   TablePlace mean;    // its velocities are the means of the step
-  if (step > 0) mean = m.table->mean_before(t, step);
+  if (step > 0) mean = m.table->mean_before(place, t, step);
   if (m.table->turns_about_axis()) {
     turn(pose, m.point, unit_vector(m.axis), place.angle, place.speed,
          step > 0 ? from_mean(mean.speed, place.speed, step) : 0);

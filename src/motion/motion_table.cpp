@@ -269,14 +269,14 @@ TablePlace MotionTable::at(Time t) const
   return place;
 }
 
-TablePlace MotionTable::mean_before(Time t, Real step) const
+TablePlace MotionTable::mean_before(const TablePlace &end, Time t, Real step) const
 {
-  const TablePlace from = at(t - step), to = at(t);
+  const TablePlace from = at(t - step);
   TablePlace mean;
-  mean.velocity = (1 / step) * (to.shift - from.shift);
+  mean.velocity = (1 / step) * (end.shift - from.shift);
   // A table that repeats may end whole turns from where it begins.
-  mean.speed = std::remainder(to.angle - from.angle, 2 * kPi) / step;
-  if (turns() && !turns_about_axis()) mean.angular = (1 / step) * turn_between(from.turn, to.turn);
+  mean.speed = std::remainder(end.angle - from.angle, 2 * kPi) / step;
+  if (turns() && !turns_about_axis()) mean.angular = (1 / step) * turn_between(from.turn, end.turn);
   return mean;
 }
 

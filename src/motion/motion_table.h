@@ -77,9 +77,9 @@ class MotionTable {
   Real end() const { return times_.back(); }
 
   TablePlace at(Time t) const;
-  // Returns the mean velocities of the step that ends at time t, from its first place to its last, in a TablePlace whose places are not
-  // set. In a step in which the mesh turns by half a turn or more, it turns the shorter way.
-  TablePlace mean_before(Time t, Real step) const;
+  // Returns the mean velocities of the step that ends at time t, where the mesh is at `end`, in a TablePlace whose places are not set.
+  // In a step in which the mesh turns by half a turn or more, it turns the shorter way.
+  TablePlace mean_before(const TablePlace &end, Time t, Real step) const;
   // Returns the times of the rows, and those in the middle between two rows.
   std::vector<Real> typical_times() const;
   // Returns whether no row shifts the mesh along this unit vector, or turns it about another axis. Angles about the axis of the term are
