@@ -81,6 +81,7 @@ NOT_RUN = {
     ("doc/library.md", "cmake --install"): "has a prefix to be chosen; test_install.py installs a build",
     ("doc/library.md", "find_package"): "is of a CMakeLists.txt; test_install.py builds with such lines",
     ("doc/other-walls.md", "/usr/bin/python3 examples/flat/differences.py"): "names a LAMMPS; lammps.wall_gran_differences runs it",
+    ("doc/performance.md", "sed 's/ log brief//'"): "needs the meshes of examples/films, and half a minute",
     ("doc/recipes.md", "export LAMMPS_PLUGIN_PATH"): "needs a GPU",
     ("doc/recipes.md", "apt install gmsh"): "installs a program, and has a file of CAD",
     ("doc/recipes.md", "surfaceMeshExtract"): "needs OpenFOAM",
