@@ -29,7 +29,7 @@ import re
 import sys
 
 LAYERS = [["base"], ["backend"], ["geometry", "shape"], ["mesh"], ["box"], ["host"], ["motion"], ["grid", "rigid", "tree"], ["contact"], ["law"], ["engine"],
-          ["bodies", "query", "effects", "output", "material", "flow", "insert"],
+          ["bodies", "clump", "query", "effects", "output", "material", "flow", "insert"],
           ["pair", "study"], ["wall"], ["input"], ["lammps", "tool", "api"], ["kokkos"]]
 # Of each module with folders. "." stands for the files that lie in none, but for those that are named.
 FOLDERS = {
