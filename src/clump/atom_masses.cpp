@@ -164,11 +164,18 @@ AtomMasses atom_masses(const std::vector<Ball> &balls, const MassProperties &clu
     volume += shares.back();
   }
   for (Real &s : shares) s /= volume;
-  for (const Real softness : {0.0, 1e-6, 1e-4, 1e-2, 1.0}) {
+  // Exact masses that are much less than their shares are at the edge of what is possible.
+  constexpr Real kLeastShare = 1e-6;
+  for (const Real softness : {0.0, 1e-4, 1e-2, 1.0}) {
     MassFit fit(shares, rows, wanted, softness);
     if (!fit.solve()) continue;
     AtomMasses masses;
-    for (const Real m : fit.mass()) masses.mass.push_back(m * clump.mass);
+    bool is_small = false;
+    for (std::size_t i = 0; i < balls.size(); i++) {
+      is_small = is_small || fit.mass()[i] < kLeastShare * shares[i];
+      masses.mass.push_back(fit.mass()[i] * clump.mass);
+    }
+    if (is_small && softness == 0) continue;
     masses.sums = sums_of(balls, masses.mass);
     return masses;
   }

@@ -18,10 +18,11 @@ struct AtomMasses {
   MassProperties sums;
 };
 
-// Returns masses above 0 of spheres, whose sum is the mass of the clump and whose centre of mass is its centre; where that is possible, the
-// inertia of all spheres together is its inertia, too, else it is near it. Of all such masses they are the least far from shares by the spheres' volumes, in
-// relative entropy (Kullback 1959): each is its share times the exponential of a function of its place and radius, which
-// Newton's method finds. Throws InputError where no masses above 0 have this centre.
+// Returns masses above 0 of spheres, whose sum is the mass of the clump and whose centre of mass is its centre (to 1e-12). Their
+// inertia together, each as a solid sphere, is that of the clump where masses of 1e-6 of a sphere's share and more can have it, and near it
+// elsewhere. Of all such masses they are the least far from shares by the spheres' volumes, in relative entropy
+// (Kullback, Information Theory and Statistics, 1959): each is its share times the exponential of a function of its place and
+// radius, which Newton's method finds. Throws InputError where no masses above 0 have this centre.
 AtomMasses atom_masses(const std::vector<Ball> &balls, const MassProperties &clump);
 
 }    // namespace lsdcd

@@ -14,7 +14,7 @@ namespace lsdcd {
 
 namespace {
 
-constexpr Real kLatticePoints = 1 << 19;    // in the box of the mesh
+constexpr Real kLatticePoints = 1 << 18;    // in the box of the mesh
 constexpr Real kSurfacePoints = 6000;       // about, if the faces are not more
 
 // Points in the middle of cells around the mesh, a bit each: which of them a clump covers.
@@ -32,38 +32,30 @@ class CoverLattice {
       n_[k] = std::max(1, static_cast<int>(std::ceil((size[k] + 2 * beyond) / step_)));
     words_ = (n_[0] + 63) / 64;
     const std::size_t all = std::size_t(words_) * n_[1] * n_[2];
-    inside_.resize(all);
+    left_.resize(all);
     outside_.resize(all);
     for (int k = 0; k < n_[2]; k++)
       for (int j = 0; j < n_[1]; j++)
         for (int i = 0; i < n_[0]; i++) {
           const Vec3 p = lo_ + step_ * Vec3{i + 0.5, j + 0.5, k + 0.5};
-          auto &bits = inside.holds(p) ? inside_ : outside_;
+          auto &bits = inside.holds(p) ? left_ : outside_;
           bits[row(j, k) + i / 64] |= std::uint64_t(1) << i % 64;
         }
   }
 
-  // How many points a ball would newly cover, inside and outside the mesh.
-  struct Count {
-    std::int64_t inside = 0, outside = 0;
-
-    std::int64_t gain() const { return inside - outside; }
-  };
-  Count count(const Ball &ball) const
+  // Returns how many points inside the mesh a ball would newly cover, less all that it covers outside. It never grows while balls are
+  // taken.
+  std::int64_t gain(const Ball &ball) const
   {
-    Count n;
+    std::int64_t n = 0;
     each_word(ball, [&](std::size_t w, std::uint64_t mask) {
-      n.inside += count_bits(inside_[w] & mask);
-      n.outside += count_bits(outside_[w] & mask);
+      n += count_bits(left_[w] & mask) - count_bits(outside_[w] & mask);
     });
     return n;
   }
   void cover(const Ball &ball)
   {
-    each_word(ball, [&](std::size_t w, std::uint64_t mask) {
-      inside_[w] &= ~mask;
-      outside_[w] &= ~mask;
-    });
+    each_word(ball, [&](std::size_t w, std::uint64_t mask) { left_[w] &= ~mask; });
   }
 
  private:
@@ -74,8 +66,10 @@ class CoverLattice {
   {
     const Real from = (at - reach - lo_[axis]) / step_ - 0.5,
                to = (at + reach - lo_[axis]) / step_ - 0.5;
-    return {static_cast<int>(std::ceil(std::clamp(from, Real(0), Real(n_[axis])))),
-            static_cast<int>(std::floor(std::clamp(to, Real(-1), Real(n_[axis] - 1))))};
+    // Rounded up and down by casts, as ceil() and floor() are calls.
+    const int n = n_[axis];
+    return {n - static_cast<int>(n - std::clamp(from, Real(0), Real(n))),
+            static_cast<int>(1 + std::clamp(to, Real(-1), Real(n - 1))) - 1};
   }
   template <class Visit>
   void each_word(const Ball &ball, const Visit &visit) const
@@ -103,7 +97,7 @@ class CoverLattice {
   Vec3 lo_;
   std::array<int, 3> n_;
   int words_;
-  std::vector<std::uint64_t> inside_, outside_;    // not yet covered
+  std::vector<std::uint64_t> left_, outside_;    // inside and not yet covered; outside
 };
 
 // A point of a face and the direction into the mesh there.
@@ -169,7 +163,7 @@ class MeshFiller {
   struct Candidate {
     Ball ball;
     std::size_t number;
-    std::int64_t most;    // that it can still cover inside
+    std::int64_t most;    // that it can still add
 
     bool operator<(const Candidate &other) const
     {
@@ -182,11 +176,19 @@ class MeshFiller {
 
   void find_candidates()
   {
+    Ball largest = {{0, 0, 0}, 0};
+    const auto add = [&](const Ball &ball) {
+      if (ball.radius > 0 && ball.radius >= settings_.least_radius)
+        candidates_.push_back({ball, candidates_.size(), lattice_.gain(ball)});
+    };
     for (const Foot &foot : feet_on(inside_.mesh())) {
       const Ball ball = ball_at(centre_from(foot));
-      if (ball.radius > 0 && ball.radius >= settings_.least_radius)
-        candidates_.push_back({ball, candidates_.size(), lattice_.count(ball).inside});
+      if (ball.radius > largest.radius) largest = ball;
+      add(ball);
     }
+    // The least radius may be between those of candidates and the largest in the mesh.
+    if (candidates_.empty() && largest.radius > 0)
+      add(moved(largest, [](const Ball &) { return 0; }));
     std::make_heap(candidates_.begin(), candidates_.end());
   }
   // Returns the centre of the largest ball inside that touches the foot: a ball that is too large has a point of the mesh in it, and
@@ -209,8 +211,8 @@ class MeshFiller {
     return centre;
   }
 
-  // Finds the candidate that adds most; false: none adds anything. What a ball covers inside never grows while others are taken, so that one
-  // which has once covered less need not be counted again (Minoux 1978).
+  // Finds the candidate that adds most; false: none adds anything. What a ball adds never grows, so that one which has once added less
+  // need not be counted again (Minoux 1978).
   bool choose(Ball &best)
   {
     std::int64_t gain = 0;
@@ -219,32 +221,38 @@ class MeshFiller {
     while (left > 0 && candidates_.front().most > gain) {
       std::pop_heap(begin, begin + left);
       Candidate &c = candidates_[--left];
-      const CoverLattice::Count n = lattice_.count(c.ball);
-      c.most = n.inside;
-      if (n.gain() <= gain) continue;
-      gain = n.gain();
+      c.most = lattice_.gain(c.ball);
+      if (c.most <= gain) continue;
+      gain = c.most;
       best = c.ball;
     }
     for (; left < candidates_.size(); left++) std::push_heap(begin, begin + left + 1);
     return gain > 0;
   }
-  // Moves a ball by ever smaller steps to where it adds more, or as much with a larger radius.
   Ball improved(const Ball &from) const
   {
+    return moved(from, [&](const Ball &ball) {
+      return ball.radius >= settings_.least_radius ? lattice_.gain(ball) : -1;
+    });
+  }
+  // Moves a ball by ever smaller steps to where the value is larger, or as large with a larger radius.
+  template <class Value>
+  Ball moved(const Ball &from, const Value &value) const
+  {
     Ball best = from;
-    std::int64_t gain = lattice_.count(best).gain();
+    std::int64_t most = value(best);
     for (Real step = 0.1 * from.radius; step > 1e-5 * from.radius;) {
       bool is_better = false;
       for (int d = 0; d < 27 && !is_better; d++) {
         const Vec3 way = {d % 3 - Real(1), d / 3 % 3 - Real(1), d / 9 - Real(1)};
         if (d == 13) continue;
         const Ball ball = ball_at(best.centre + step * way);
-        if (!(ball.radius > 0 && ball.radius >= settings_.least_radius)) continue;
-        const std::int64_t more = lattice_.count(ball).gain();
-        is_better = more > gain || (more == gain && ball.radius > best.radius * (1 + 1e-12));
+        if (!(ball.radius > 0)) continue;
+        const std::int64_t here = value(ball);
+        is_better = here > most || (here == most && ball.radius > best.radius * (1 + 1e-12));
         if (!is_better) continue;
         best = ball;
-        gain = more;
+        most = here;
       }
       if (!is_better) step *= 0.5;
     }
