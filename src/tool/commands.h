@@ -19,6 +19,7 @@ void add_collide_command(Command &program);
 void add_material_command(Command &program);
 void add_timestep_command(Command &program);
 void add_shape_command(Command &program);
+void add_clump_command(Command &program);
 void add_tradeoff_command(Command &program);
 void add_accuracy_command(Command &program);
 void add_effects_command(Command &program);

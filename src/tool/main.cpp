@@ -36,6 +36,7 @@ int run(int argc, char **argv)
   add_material_command(program);
   add_timestep_command(program);
   add_shape_command(program);
+  add_clump_command(program);
   add_tradeoff_command(program);
   add_accuracy_command(program);
   add_effects_command(program);

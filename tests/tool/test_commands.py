@@ -5,6 +5,7 @@
 taken and others refused, and a table of good and bad uses does what it should. A new command needs a
 row in NEEDS and in GOOD. LSDCD_QUICK=1 has another example of `accuracy`, whose own makes fine grids for 35 s."""
 import json
+import math
 import os
 import re
 import shlex
@@ -18,7 +19,8 @@ from triangles import cube
 # What is missing where a command stands alone.
 NEEDS = {"inspect": "file is required", "repair": "file is required", "convert": "file is required",
          "generate": "subcommand is required", "grid": "file is required", "distance": "mesh is required", "collide": "wall is required",
-         "material": "file is required", "timestep": "--radius is required", "shape": "lengths is required", "tradeoff": "file is required", "accuracy": None, "effects": None,
+         "material": "file is required", "timestep": "--radius is required", "shape": "lengths is required",
+         "clump": "give a mesh and --spheres, or --list", "tradeoff": "file is required", "accuracy": None, "effects": None,
          "report": "required: folder", "film": "required: folder"}
 # Words that make an example quick.
 QUICK = {"tradeoff": "--spheres 100 --moving 2 --repeats 1 --seconds 0.2 --device cpu --plot none"}
@@ -76,6 +78,11 @@ GOOD = [
     ("shape 2 2 10", ["least mass         0.2453 of", "half-axes          1 1 5, block 2 2"]),
     # 2 a b c e1 e2 B(e1/2 + 1, e1) B(e2/2, e2/2) with e = 2/n.
     ("shape 6 4 2 --block 4 8 --density 1", ["volume             41.0492894", "set group all block 4 8"]),
+    # Two spheres of radius 1, 1 apart: twice 4/3 pi less a lens of 5/12 pi.
+    ("clump --list pair.txt --json", {"volume": 9 / 4 * math.pi, "spheres": 2, "covered": 1, "radius": 1.5}),
+    ("clump --list pair.txt --scale 0.1 --density 2000 -o pair.mol", ["mass               14.1371669 ", "centre of mass     0.25 0 0\n", "left out           1 sphere of the list", "pair.mol: a molecule of 2 spheres"]),
+    ("clump wall.stl --spheres 2 --least-radius 0.49", ["spheres            1, radii 0.49999", "volume           1    -47.6 %"]),
+    ("clump wall.stl --list pair.txt", ["volume           1    +607 %"]),
     ("tradeoff wall.stl --radius 0.1 " + QUICK["tradeoff"], ["default", "rows in tradeoff.csv"]),
     ACCURACY,
     # Between grains: the number of the pair in the list and three numbers, with a rolling model three more; none of a belt.
@@ -118,6 +125,23 @@ BAD = [    # words, exit code, what is said
     ("shape 1 1 0", 2, ["lengths", "0 is not a number above 0"]),
     ("shape 1 1 1 --kn 5", 2, ["--kn", "--density"]),
     ("shape 1 1 1 --block 1.5 2", 1, ["exponent", "1.5", "from 2, an ellipsoid, to 20"]),
+    ("clump wall.stl", 2, ["--spheres: is required"]),
+    ("clump wall.stl --spheres 0", 2, ["--spheres", "0 not in range 1 to 100000"]),
+    ("clump wall.stl --spheres 2 --list pair.txt", 2, ["--list", "--spheres"]),
+    ("clump wall.stl --spheres 2 --stick-out 1", 2, ["--stick-out", "below 1"]),
+    ("clump wall.stl --spheres 2 --density 0", 2, ["--density", "0 is not a number above 0"]),
+    ("clump wall.stl --spheres 2 --least-radius 0.6", 1, ["wall.stl", "radius of 0.6", "smaller --least-radius"]),
+    ("clump two.stl --spheres 2", 1, ["two.stl", "12 facets of closed shells wound against the others", "lsdcd repair"]),
+    ("clump cut.stl --spheres 2", 1, ["cut.stl", "pairs of facets that cut or touch each other", "unite parts"]),
+    ("clump open.stl --spheres 2", 1, ["open.stl", "3 edges are open"]),
+    ("clump --list pair.txt --stick-out 0.1", 2, ["--stick-out", "a list is taken as it is"]),
+    ("clump --list pair.txt --scale 1 2 3", 2, ["--scale", "one factor above 0"]),
+    ("clump --list pair.txt --matrix 1 0 0 0 0 1 0 0 0 0 1 0", 2, ["--matrix", "lsdcd convert"]),
+    ("clump --list pair.txt -o pair.txt", 1, ["would replace pair.txt"]),
+    ("clump --list pair.txt -o no/pair.mol", 1, ["no/pair.mol", NO_FILE]),
+    ("clump --list points.csv", 1, ["points.csv: line 1 has 3 columns", "x y z radius"]),
+    ("clump --list flat.txt", 1, ["flat.txt: line 3 has a radius of -1", "above 0"]),
+    ("clump --list empty.txt", 1, ["empty.txt", "no spheres"]),
     ("timestep --radius 0 --speed 1", 2, ["--radius", "0 is not a number above 0"]),
     ("timestep --radius 1", 2, ["--speed is required"]),
     ("timestep --radius 1 --speed 1 --poisson 0.6", 2, ["--poisson", "0.6"]),
@@ -147,7 +171,7 @@ BAD = [    # words, exit code, what is said
 ]
 # Of all that read a mesh.
 OF_A_MESH = ["inspect {}", "grid {} --radius 1", "tradeoff {} --radius 1", "distance {} points.csv --radius 1 -o d.csv",
-             "repair {} -o new.stl", "collide {} body.stl", "convert {} -o new.stl"]
+             "repair {} -o new.stl", "collide {} body.stl", "convert {} -o new.stl", "clump {} --spheres 2 -o new.mol"]
 BAD += [(f"{command.format(mesh)} {words}", code, said) for mesh, words, code, said, commands in (
     ("nowhere.stl", "", 1, ["nowhere.stl", NO_FILE], OF_A_MESH),
     ("text.stl", "", 1, ["text.stl", "not an STL"], OF_A_MESH),
@@ -178,7 +202,11 @@ def scene(folder):
     box[0, 0] += (0.003, 0.004, 0)
     stl.write(folder / "apart.stl", box)
     stl.write(folder / "line.stl", [[(0, 0, 0), (1, 0, 0), (2, 0, 0)]])
+    stl.write(folder / "open.stl", cube()[1:])
     (folder / "points.csv").write_text("0.5,0.5,1.25\n9,9,9\n")
+    (folder / "pair.txt").write_text("x y z radius\n2 0 0 1\n3 0 0 1    \n# within the first\n2 0.2 0 0.5\n")
+    (folder / "flat.txt").write_text("0,0,0,1\n\n1,0,0,-1\n")
+    (folder / "empty.txt").write_text("# nothing\n")
     (folder / "text.stl").write_text("no mesh at all\n")
     (folder / "log.lammps").write_text("units si\ntimestep 1e-5\nStep KinEng\n0 1\n100 2\nLoop time of 1\nTotal wall time: 0:00:01\n")
     (folder / "grains.dump").write_text("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n"
