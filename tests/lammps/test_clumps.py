@@ -9,9 +9,11 @@ import math
 import os
 import re
 
+import command
 import lmp
 import stl
 from facts import at_most, fact
+from triangles import cube
 
 R, DENSITY, G = 0.5, 2.0, 10.0
 MASS = DENSITY * 4 / 3 * math.pi * R**3    # of a sphere
@@ -234,6 +236,66 @@ def test_lifted(folder):
                 row[k + 3] -= v
     # Places of 4 are rounded to 4e-16, overlaps are 1e-4: forces are off by 4e-12, as above.
     at_most("a mesh that moves: as at rest", lmp.largest_difference(rest, moved), 1e-10)
+
+
+BODY = """\
+{head}fix             number all property/atom mol ghost yes
+molecule        clump clump.mol
+{create}
+{pairs}
+fix             bodies all rigid/small molecule {more}
+{deposit}
+compute         body all rigid/local bodies mass inertiax inertiay inertiaz quatw quati quatj quatk x y z
+dump            body all local 1 body {columns}
+dump_modify     body format float %.17g
+thermo_style    custom step
+timestep        1e-6
+run             {steps}
+"""
+
+
+def read_body(folder, **words):
+    """Mass, moments, quaternion and place of the one body, and the principal moments in rising order with their axes."""
+    words = {"create": "", "deposit": "", "more": "", "steps": 1, **words}
+    lmp.run_well(BODY.format(head=lmp.head("-9 9 -9 9 -9 9", comm="vel yes cutoff 5.0"), columns=" ".join(f"c_body[{k + 1}]" for k in range(11)),
+                             pairs=lmp.pairs(neigh="exclude molecule/intra all"), **words), folder)
+    mass, *numbers = map(float, (folder / "body").read_text().split("\n")[-2].split())
+    w, i, j, k = numbers[3:7]
+    axes = [(w * w + i * i - j * j - k * k, 2 * (i * j + w * k), 2 * (i * k - w * j)),
+            (2 * (i * j - w * k), w * w - i * i + j * j - k * k, 2 * (j * k + w * i)),
+            (2 * (i * k + w * j), 2 * (j * k - w * i), w * w - i * i - j * j + k * k)]
+    return mass, sorted(zip(numbers[:3], axes))
+
+
+def has_inertia_of(clump, name, body):
+    """All is written to the last digit; moments come of LAMMPS's Jacobi rotations, which end at 1e-8 and less."""
+    at_most(f"{name}: its mass", abs(body[0] / clump["mass"] - 1), 1e-12)
+    at_most(f"{name}: its principal moments", max(abs(is_[0] / moment - 1) for is_, moment in zip(body[1], clump["principal_moments"])), 1e-7)
+
+
+def test_made_from_spheres(folder):
+    """A body of fix deposit has the mass and inertia of the union that lsdcd clump printed, about the axes that it printed: no two
+    products of inertia are the same, so that their order in the file matters. It is turned about z by an angle that is not known."""
+    (folder / "spheres.txt").write_text("0 0 0 1\n1 0.2 0 0.9\n1.2 1 0.3 0.7\n0.5 0.5 0.9 0.8\n")
+    clump = command.told(folder, "clump", "--list", "spheres.txt", "--density", 3, "-o", "clump.mol")
+    body = read_body(folder, more="mol clump", steps=3, create="region slab block -1 1 -1 1 -1 1",
+                     deposit="fix dep all deposit 1 0 1 4711 region slab mol clump rigid bodies near 0.1 orient 0 0 1")
+    has_inertia_of(clump, "a clump of fix deposit", body)
+    at_most("a clump of fix deposit: heights of its axes",
+            max(abs(abs(is_[1][2]) - abs(axis[2])) for is_, axis in zip(body[1], clump["principal_axes"])), 1e-7)
+
+
+def test_made_from_a_mesh(folder):
+    """The masses of the atoms alone have the mass, inertia and axes of the clump: LAMMPS sums these at each run."""
+    stl.write(folder / "part.stl", cube())
+    turned = "0.8 -0.36 0.48 0 0.6 0.48 -0.64 0 0 0.8 0.6 0"
+    clump = command.told(folder, "clump", "part.stl", "--scale", 1.3, 1.2, 1, "--matrix", *turned.split(), "--spheres", 40, "--density", 3,
+                         "-o", "clump.mol")
+    body = read_body(folder, create="create_atoms 0 single 0 0 0 mol clump 4711 rotate 0 0 0 1")
+    has_inertia_of(clump, "a clump of create_atoms", body)
+    # Along the axis, to the square of the angle.
+    at_most("a clump of create_atoms: its axes",
+            max(1 - abs(sum(a * b for a, b in zip(is_[1], axis))) for is_, axis in zip(body[1], clump["principal_axes"])), 1e-9)
 
 
 @lmp.of_kokkos
