@@ -3,6 +3,7 @@
 
 """Contacts that yield, at a wall: random paths beside an own law in numpy, and what becomes of a plastic overlap over seams and folds."""
 import math
+import os
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from test_contact_losses import Grains, sheet
 
 R = 0.5
 CIRCLE = oracle.circle_at_wall(R)
-N = 10000
+N = 1000 if os.environ.get("LSDCD_QUICK") else 10000
 PLAIN = "tangential linear_nohistory 0 0"
 LAWS = {"hysteretic": ("hysteretic 1e4 0.5", lambda n: oracle.Hysteretic(1e4, 0.5, n)),
         "hysteretic/size": ("hysteretic/size 2e4 0.3", lambda n: oracle.Hysteretic(2 * 2e4 * R, 0.3, n)),
@@ -33,7 +34,7 @@ def wall(law, mesh, more=""):
 @pytest.mark.parametrize("cells", [1, 7])
 @pytest.mark.parametrize("name", LAWS)
 def test_random_paths(name, cells):
-    """10 000 spheres are moved up and down at a plane of two triangles, and at one of many, where they also move along it. Forces are those of the
+    """10 000 spheres (1000 in the tests of every day) are moved up and down at a plane of two triangles, and at one of many, where they also move along it. Forces are those of the
     oracle but for rounding of the overlap, which is that of places of size 1, times the steepest slope."""
     words, law = LAWS[name]
     rng = np.random.default_rng(4711)
