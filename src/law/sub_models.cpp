@@ -57,10 +57,10 @@ constexpr Parameter kLoading =
     Parameter{"k1", "force/length", kAboveZero}.to_power(1).mixed_by(Mixing::series);
 constexpr Parameter kSteepest =
     Parameter{"kp", "force/length", kAboveZero}.to_power(1).mixed_by(Mixing::series);
-constexpr Parameter kPulling =
-    Parameter{"kc", "force/length"}.to_power(1).mixed_by(Mixing::series);
-constexpr Parameter kLoadingByPower =
-    Parameter{"k1", "force/length^n", kAboveZero}.to_power(kPowerByExponent).mixed_by(Mixing::series);
+constexpr Parameter kPulling = Parameter{"kc", "force/length"}.to_power(1).mixed_by(Mixing::series);
+constexpr Parameter kLoadingByPower = Parameter{"k1", "force/length^n", kAboveZero}
+                                          .to_power(kPowerByExponent)
+                                          .mixed_by(Mixing::series);
 constexpr Parameter kModulusInSeries =
     Parameter{"Y", "pressure", kAboveZero}.to_power(0).mixed_by(Mixing::series);
 constexpr Parameter kYieldStrength =

@@ -25,7 +25,8 @@ enum class Mixing {
 // Powers of a length. In coarse graining grains are L times as large, and a number of theirs is multiplied by L to its power.
 constexpr Real kNoPower = 1e9;           // nothing is known of it
 constexpr Real kPowerOfDamping = 2e9;    // that of the damping sub-model (SubModel::second)
-constexpr Real kPowerByExponent = 3e9;   // 2 - n, with the number n of the same row: a force is it times a length^n
+constexpr Real kPowerByExponent =
+    3e9;    // 2 - n, with the number n of the same row: a force is it times a length^n
 
 // A number that a script gives.
 struct Parameter {
