@@ -10,8 +10,14 @@ EDITS has the files in the order of the recipe, each with pieces of it and what 
 EDITS = {
     "src/law/submodels/normal.h": [
         # Its name.
-        ("enum class NormalModel : ModelNumber { hooke, hertz, dmt, jkr };",
-         "enum class NormalModel : ModelNumber { hooke, hertz, dmt, jkr, stiffening };"),
+        ("""\
+  thornton
+};
+""", """\
+  thornton,
+  stiffening
+};
+"""),
         # It does not pull, and no damping is known that returns a restitution.
         ("""\
     case NormalModel::dmt:
