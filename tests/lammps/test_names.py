@@ -126,7 +126,7 @@ def test_energy(folder):
     meshes(folder)
     pairs = [(f"all_{name}", f"c_books[{at}]" if at else "c_books") for at, name in rows_of("compute_lsdcd_energy", '1-5, "dissipated_power_damping')]
     seen = both(folder, TABLE + "compute books all lsdcd/energy names all all\n", pairs)
-    fact("each is the element of the page", len(seen) == 23 and all(a == b for a, b in seen.values()), seen)
+    fact("each is the element of the page", len(seen) == 25 and all(a == b for a, b in seen.values()), seen)
     lmp.refused("another word", TABLE + "compute books all lsdcd/energy name b all\n", folder, "compute ID all lsdcd/energy [names PREFIX NAME ...]")
 
 

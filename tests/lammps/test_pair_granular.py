@@ -780,7 +780,7 @@ def test_refusals(folder):
                               ("no law", "* *", "two atom types and a law"),
                               ("bad sub-model", "* * hooke 1 1 tangential mindlyn 1 1 1", "'mindlyn' is not a sub-model"),
                               ("limited adhesion, with the syntax of two grains", "* * jkr 1e5 0.7 0.3 0.3 tangential mindlin NULL 0.6 0.4 limit_damping",
-                               "leave limit_damping out. Syntax: granular hooke|hertz|hertz/material|dmt|jkr ... tangential MODEL ... [damping MODEL] [rolling MODEL ...] "
+                               "leave limit_damping out. Syntax: granular hooke|hertz|hertz/material|dmt|jkr|hysteretic|hysteretic/size|hysteretic/edem|eepa|lepa|thornton ... tangential MODEL ... [damping MODEL] [rolling MODEL ...] "
                                "[twisting MODEL ...] [heat MODEL ...] [cohesion MODEL ...] [limit_damping] (")):
         lmp.refused(name, script(ours(coeff)), folder, says)
     exact = "* * hooke 1e4 {} tangential linear_nohistory 0 0 damping coeff_restitution"

@@ -32,6 +32,7 @@ KeywordName = Literal[
     "torque_about",
     "device",
     "temperature",
+    "coarse_grain",
     "grid",
     "rmax",
     "memory",
