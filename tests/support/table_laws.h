@@ -42,6 +42,8 @@ inline Real number_of(const Parameter &p, bool can_be_derived)
                                                       {"power/(length temperature)", 3},
                                                       {"power/(length^2 temperature)", 3}};
   if (p.may_be_null && can_be_derived) return NAN;
+  if (p.name == std::string("kp"))
+    return 4e3;    // the stiffness of unloading, above that of loading
   const auto found = by_unit.find(p.unit);
   if (found == by_unit.end())
     throw std::logic_error("name the unit '" + std::string(p.unit) + "' in table_laws.h");
