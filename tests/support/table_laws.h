@@ -44,6 +44,7 @@ inline Real number_of(const Parameter &p, bool can_be_derived)
   if (p.may_be_null && can_be_derived) return NAN;
   if (p.name == std::string("kp"))
     return 4e3;    // the stiffness of unloading, above that of loading
+  if (p.name == std::string("py")) return 1e3;    // so that it yields
   const auto found = by_unit.find(p.unit);
   if (found == by_unit.end())
     throw std::logic_error("name the unit '" + std::string(p.unit) + "' in table_laws.h");
