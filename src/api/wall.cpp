@@ -223,11 +223,10 @@ int lsdcd_wall_get_contacts(lsdcd_wall *wall, lsdcd_wall_contacts *contacts)
       if (to.mesh) to.mesh[i] = c.mesh;
       if (to.overlap) to.overlap[i] = c.overlap;
       if (to.has_ended) to.has_ended[i] = c.has_ended;
-      constexpr int kByCause = kLossCauses - 1;    // the last one, yielding, has arrays of its own
       const auto put = [&](double *by_cause, double *plastic, const Real *losses) {
-        for (int k = 0; k < kByCause; k++)
-          if (by_cause) by_cause[kByCause * i + k] = losses ? losses[k] : 0;
-        if (plastic) plastic[i] = losses ? losses[kByCause] : 0;
+        for (int k = 0; k < kListedCauses; k++)
+          if (by_cause) by_cause[kListedCauses * i + k] = losses ? losses[k] : 0;
+        if (plastic) plastic[i] = losses ? losses[kListedCauses] : 0;
       };
       put(to.dissipated_power, to.dissipated_power_plastic, c.losses ? c.losses->power : nullptr);
       put(to.dissipated, to.dissipated_plastic, c.losses ? c.losses->energy : nullptr);

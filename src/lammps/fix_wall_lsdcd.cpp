@@ -631,9 +631,8 @@ void FixWallLsdcd::fill_each_contact()
     put({static_cast<double>(atom->tag[c.sphere]), c.mesh + 1.0, c.force.x, c.force.y, c.force.z,
          c.point.x, c.point.y, c.point.z, c.overlap});
     if (!c.losses) return;
-    constexpr int kColumns = lsdcd::kLossCauses - 1;    // of causes; yielding has none
-    for (int k = 0; k < kColumns; k++) put({c.losses->power[k]});
-    for (int k = 0; k < kColumns; k++) put({c.losses->energy[k]});
+    for (int k = 0; k < lsdcd::kListedCauses; k++) put({c.losses->power[k]});
+    for (int k = 0; k < lsdcd::kListedCauses; k++) put({c.losses->energy[k]});
     put({c.has_ended ? 1.0 : 0.0});
   });
   contact_row_at.clear();

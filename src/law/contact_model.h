@@ -443,4 +443,26 @@ LSDCD_FN int n_extra(const Law &law)
   return n;
 }
 
+// Copy the vectors and scalars of a memory that the law stores. `from`, `to`: pointers to these numbers, or types that act like one.
+template <class Law, class From>
+LSDCD_FN void read_extra(const Law &law, From from, ContactMemory<Law::kExtra> &memory)
+{
+  for (int k = 0; k < Law::kVectors; k++)
+    if (law.stores(k)) {
+      memory.put(3 * k, {from[0], from[1], from[2]});
+      from += 3;
+    }
+  for (int k = 0; k < Law::kScalars; k++)
+    if (law.stores(Law::kVectors + k)) memory.extra[3 * Law::kVectors + k] = *from++;
+}
+template <class Law, class To>
+LSDCD_FN void write_extra(const Law &law, const ContactMemory<Law::kExtra> &memory, To to)
+{
+  for (int k = 0; k < Law::kVectors; k++)
+    if (law.stores(k))
+      for (int j = 0; j < 3; j++) *to++ = memory.extra[3 * k + j];
+  for (int k = 0; k < Law::kScalars; k++)
+    if (law.stores(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
+}
+
 }    // namespace lsdcd

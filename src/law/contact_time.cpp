@@ -13,18 +13,12 @@ namespace lsdcd {
 
 namespace {
 
-// Return a contact with an overlap of 1 % of the radius, and one of 2 %.
-Contact shallow_contact(Real radius)
+// Returns a contact whose overlap is this share of the radius.
+Contact shallow_contact(Real radius, Real share = 0.01)
 {
   Contact c = {};
-  c.overlap = 0.01 * radius;
+  c.overlap = share * radius;
   c.radius = radius;
-  return c;
-}
-Contact deep_contact(Real radius)
-{
-  Contact c = shallow_contact(radius);
-  c.overlap *= 2;
   return c;
 }
 
@@ -32,7 +26,7 @@ Contact deep_contact(Real radius)
 
 bool stiffens(const ContactLaw &law)
 {
-  const Contact c = shallow_contact(1), deeper = deep_contact(1);
+  const Contact c = shallow_contact(1), deeper = shallow_contact(1, 0.02);
   return with_normal(law, [&](const auto &normal) {
     return normal.tangent(deeper, normal.contact_radius(deeper)) >
            normal.tangent(c, normal.contact_radius(c));

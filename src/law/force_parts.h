@@ -77,6 +77,8 @@ constexpr int kKeptAtNodes = static_cast<int>(sizeof(KeptAtNodes) / sizeof(Real)
 // What a contact keeps in addition to KeptForces if walls list contacts: what it dissipates by each cause, in the order of EnergyRow from
 // `damping` on.
 constexpr int kLossCauses = 6;
+constexpr int kListedCauses =
+    5;    // of lists of contacts and rows of outputs; yielding, the last one, is apart
 struct KeptLosses {
   Real power[kLossCauses];     // in the last step, energy/time
   Real energy[kLossCauses];    // since the contact began

@@ -5,7 +5,9 @@
 
 #include "base/input_words.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace lsdcd {
@@ -129,26 +131,36 @@ void set_material(const Real *n, LawDraft &d)
   if (model != NormalModel::hertz) d.law.surface_energy = n[3];
 }
 
-// A normal sub-model that yields, whose numbers are those of its model (plastic.h), in the order of the row. kSecond: the second
-// number is that of the damping, and the others are the model's. kFactor: of the first number.
-template <NormalModel model, bool kSecond, DampingModel damping, int kFactor>
-void set_plastic(const Real *n, LawDraft &d)
+// The loading stiffness is the first number times the factor. A contact that yields by itself has no dashpot.
+template <NormalModel model, int factor>
+void set_hysteretic(const Real *n, LawDraft &d)
 {
   d.law.normal = model;
-  d.law.damping = damping;
-  d.damping_name = damping == DampingModel::stiffness  ? "coeff_restitution"
-                   : damping == DampingModel::velocity ? "velocity"
-                                                       : "none";
-  Real *const to = d.law.plastic;
-  if (!kSecond) {
-    to[0] = kFactor * n[0];
-    to[1] = n[1];
-    return;
-  }
+  d.law.damping = DampingModel::none;
+  d.damping_name = "none";
+  d.law.plastic[0] = factor * n[0];
+  d.law.plastic[1] = n[1];
+}
+
+// The third number is the plasticity ratio, from which the stiffness of unloading follows.
+void set_eepa(const Real *n, LawDraft &d)
+{
+  d.law.normal = NormalModel::eepa;
+  d.law.damping = DampingModel::stiffness;
+  d.damping_name = "coeff_restitution";
   d.second = n[1];
-  to[0] = n[0];
-  for (int k = 1; k < (model == NormalModel::eepa ? 6 : 4); k++) to[k] = n[k + 1];
-  if (model == NormalModel::eepa) to[1] = n[0] / (1 - n[2]);    // k2, of the plasticity ratio
+  const Real numbers[] = {n[0], n[0] / (1 - n[2]), n[3], n[4], n[5], n[6]};
+  std::copy(std::begin(numbers), std::end(numbers), d.law.plastic);
+}
+
+void set_lepa(const Real *n, LawDraft &d)
+{
+  d.law.normal = NormalModel::lepa;
+  d.law.damping = DampingModel::velocity;
+  d.damping_name = "velocity";
+  d.second = n[1];
+  const Real numbers[] = {n[0], n[2], n[3], n[4]};
+  std::copy(std::begin(numbers), std::end(numbers), d.law.plastic);
 }
 
 void set_thornton(const Real *n, LawDraft &d)
@@ -237,20 +249,20 @@ std::vector<SubModel> make_table()
        "adhesion that holds past touch (Johnson, Kendall and Roberts 1971)"},
 
       {F::normal, "hysteretic", at(N::hysteretic), {kLoading, kOwnRestitution},
-       set_plastic<N::hysteretic, false, D::none, 1>, kPlasticOverlap, "yielding",
+       set_hysteretic<N::hysteretic, 1>, kPlasticOverlap, "yielding",
        "spring that unloads stiffer, with a restitution e at all speeds (Walton and Braun 1986; Rocky)"},
       {F::normal, "hysteretic/size", at(N::hysteretic_size), {kModulusInSeries, kOwnRestitution},
-       set_plastic<N::hysteretic_size, false, D::none, 2>, kPlasticOverlap, "yielding",
+       set_hysteretic<N::hysteretic_size, 2>, kPlasticOverlap, "yielding",
        "hysteretic with k1 = 2 Y R (Rocky)"},
       {F::normal, "hysteretic/edem", at(N::hysteretic_edem), {kYieldStrength, kOwnRestitution},
-       set_plastic<N::hysteretic_edem, false, D::none, 5>, kPlasticOverlap, "yielding",
+       set_hysteretic<N::hysteretic_edem, 5>, kPlasticOverlap, "yielding",
        "hysteretic with k1 = 5 Y R, of the lesser yield strength (EDEM)"},
       {F::normal, "eepa", at(N::eepa), {kLoadingByPower, kEta, kPlasticity, kSurfaceEnergy, kSlopeExponent,
-       kTensileExponent, kPullOff}, set_plastic<N::eepa, true, D::stiffness, 1>,
+       kTensileExponent, kPullOff}, set_eepa,
        {"plastic overlap of eepa, adhesive slope", 2}, "yielding and adhesion",
        "elasto-plastic adhesion (Edinburgh: Thakur et al. 2014; EDEM)"},
       {F::normal, "lepa", at(N::lepa), {kLoading, kEtaAlone, kSteepest, kPulling, kElasticDepth},
-       set_plastic<N::lepa, true, D::velocity, 1>, {"greatest overlap of lepa", 1}, "yielding and adhesion",
+       set_lepa, {"greatest overlap of lepa", 1}, "yielding and adhesion",
        "linear elasto-plastic adhesion (Luding 2008)"},
       {F::normal, "thornton", at(N::thornton), {kYoung, kEtaAlone, kPoisson, kYieldPressure}, set_thornton,
        {"greatest overlap of thornton", 1}, "yielding", "elastic, perfectly plastic sphere (Thornton 1997)"},

@@ -38,13 +38,7 @@ LSDCD_FN ContactMemory<Law::kExtra> read_memory(const Law &law, From from)
   memory.shear = {from[0], from[1], from[2]};
   if constexpr (Law::kExtra > 0) {
     from += 3;
-    for (int k = 0; k < Law::kVectors; k++)
-      if (law.stores(k)) {
-        memory.put(3 * k, {from[0], from[1], from[2]});
-        from += 3;
-      }
-    for (int k = 0; k < Law::kScalars; k++)
-      if (law.stores(Law::kVectors + k)) memory.extra[3 * Law::kVectors + k] = *from++;
+    read_extra(law, from, memory);
   }
   return memory;
 }
@@ -54,11 +48,7 @@ LSDCD_FN void write_memory(const Law &law, const ContactMemory<Law::kExtra> &mem
   for (int k = 0; k < 3; k++) to[k] = memory.shear[k];
   if constexpr (Law::kExtra > 0) {
     to += 3;
-    for (int k = 0; k < Law::kVectors; k++)
-      if (law.stores(k))
-        for (int j = 0; j < 3; j++) *to++ = memory.extra[3 * k + j];
-    for (int k = 0; k < Law::kScalars; k++)
-      if (law.stores(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
+    write_extra(law, memory, to);
   }
 }
 

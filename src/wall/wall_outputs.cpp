@@ -211,16 +211,6 @@ bool has_motion(const MeshSpec &m)
   return m.motion.moves() || m.motion.start().placed || !m.motion.stopped().empty();
 }
 
-// Returns whether a law of the wall, all of which have the same sub-models, yields.
-bool yields(const WallSpec &wall)
-{
-  const auto one_does = [](const std::vector<LawOfTypes> &laws) {
-    return !laws.empty() && laws.front().law.yields();
-  };
-  return one_does(wall.laws) || std::any_of(wall.meshes.begin(), wall.meshes.end(),
-                                            [&](const MeshSpec &m) { return one_does(m.laws); });
-}
-
 bool has(const WallSpec &wall, OutputPart part)
 {
   const auto any = [&](bool (*of)(const MeshSpec &)) {
@@ -236,7 +226,7 @@ bool has(const WallSpec &wall, OutputPart part)
     case OutputPart::wear_energy:
       return wall.energy && wall.wear_deform.every > 0;
     case OutputPart::plastic:
-      return wall.energy && yields(wall);
+      return wall.energy && wall.law().yields();
     case OutputPart::nodes:
       return wall.has_nodes();
     case OutputPart::means:

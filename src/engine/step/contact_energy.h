@@ -522,9 +522,9 @@ struct EnergyBook {
     if (before > away) return;    // it has ended beside others
     Contact c = {};
     c.radius = s.radius;
-    rows[EnergyRow::plastic] +=
-        old.weight *
-        law.plastic_loss_at_end(c, stored_memory(law, s.extra + k * n_stored(law)), before);
+    ContactMemory<Law::kExtra> memory = {};
+    read_extra(law, s.extra + k * n_stored(law), memory);
+    rows[EnergyRow::plastic] += old.weight * law.plastic_loss_at_end(c, memory, before);
   }
 };
 

@@ -230,29 +230,6 @@ LSDCD_FN auto memory_from_last_step(const Law &law, const ForceSettings &setting
   return memory;
 }
 
-// Writes what the law keeps in addition to the shear displacement: n_extra(law) numbers, vectors first.
-template <class Law, class Memory>
-LSDCD_FN void store_extra(const Law &law, const Memory &memory, Real *to)
-{
-  for (int k = 0; k < Law::kVectors; k++)
-    if (law.stores(k))
-      for (int j = 0; j < 3; j++) *to++ = memory.extra[3 * k + j];
-  for (int k = 0; k < Law::kScalars; k++)
-    if (law.stores(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
-}
-
-// Returns what store_extra() has written, without vectors of springs.
-template <class Law>
-LSDCD_FN ContactMemory<Law::kExtra> stored_memory(const Law &law, const Real *from)
-{
-  ContactMemory<Law::kExtra> memory = {};
-  for (int k = 0; k < Law::kVectors; k++)
-    if (law.stores(k)) from += 3;
-  for (int k = 0; k < Law::kScalars; k++)
-    if (law.stores(Law::kVectors + k)) memory.extra[3 * Law::kVectors + k] = *from++;
-  return memory;
-}
-
 // Returns whether a contact is on the feature, of this mesh of the wall, that had the spring which it takes over.
 template <class Springs>
 LSDCD_FN bool stays(const Springs &springs, const Transfer &in, FeatureCode feature,
@@ -537,7 +514,7 @@ LSDCD_FN void store_contact(const Law &law, const ForceSettings &settings,
   [[maybe_unused]] const Vec3 &n = motion.c.normal;
   if constexpr (Law::kHistory) {
     sink.springs[place] = {at.memory.shear, n, at.feature, at.mesh};
-    if constexpr (Law::kExtra > 0) store_extra(law, at.memory, sink.extra + place * n_stored(law));
+    if constexpr (Law::kExtra > 0) write_extra(law, at.memory, sink.extra + place * n_stored(law));
   }
   if constexpr (Law::kKeepsContacts) {
     const Real normal = at.weight * at.f.normal, pressing = normal > 0 ? normal : Real(0);

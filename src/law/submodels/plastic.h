@@ -46,11 +46,30 @@ LSDCD_FN Real half_power(Real x, int halves)
   return power;
 }
 
+// The adhesive branch of a model that has none.
+struct WithoutBranch {
+  template <class C>
+  LSDCD_FN static Real turns(const Real *, const C &, const Real *)
+  {
+    return 0;
+  }
+  template <class C>
+  LSDCD_FN static Real pulled(const Real *, const C &, const Real *, Real)
+  {
+    return 0;
+  }
+  template <class C>
+  LSDCD_FN static Real pull(const Real *, const C &, const Real *)
+  {
+    return 0;
+  }
+};
+
 // `hysteretic` k1 e (Walton and Braun 1986): a linear spring that unloads along a line of the slope k1/e^2. The contact keeps the overlap
 // at which the force vanishes. It heals: as it opens further, the force stays 0, and loading begins anew from where it turns.
 // kPerRadius: k1 is a pressure, times the radius of the contact.
 template <NormalModel kModel_, bool kPerRadius>
-struct HystereticNormal {
+struct HystereticNormal : WithoutBranch {
   static constexpr NormalModel kModel = kModel_;
   static constexpr int kStored = 1;
   static constexpr bool kHeals = true;
@@ -90,21 +109,6 @@ struct HystereticNormal {
   {
     const Real share = 1 - n[1] * n[1];    // of the overlap that stays
     return share > 0 ? 0.5 * loading(n, c) / share * own[0] * own[0] : 0;
-  }
-  template <class C>
-  LSDCD_FN static Real turns(const Real *, const C &, const Real *)
-  {
-    return 0;
-  }
-  template <class C>
-  LSDCD_FN static Real pulled(const Real *, const C &, const Real *, Real)
-  {
-    return 0;
-  }
-  template <class C>
-  LSDCD_FN static Real pull(const Real *, const C &, const Real *)
-  {
-    return 0;
   }
 };
 
@@ -289,7 +293,7 @@ struct LepaNormal {
 // `thornton` (Thornton 1997): a sphere of an elastic, perfectly plastic material. Numbers: E* of the contact, and the contact pressure py at
 // which it yields. Hertz up to the overlap R (pi py / 2 E*)^2, then loading by pi py R, and unloading by Hertz with the radius to which the
 // contact was flattened. A contact keeps its greatest overlap, which stays.
-struct ThorntonNormal {
+struct ThorntonNormal : WithoutBranch {
   static constexpr NormalModel kModel = NormalModel::thornton;
   static constexpr int kStored = 1;
   static constexpr bool kHeals = false;
@@ -351,21 +355,6 @@ struct ThorntonNormal {
     return hertz_energy(n, c.radius, line.yields_at) +
            0.5 * (line.force_there + line.force) * over -
            hertz_energy(n, line.radius, own[0] - line.begin);
-  }
-  template <class C>
-  LSDCD_FN static Real turns(const Real *, const C &, const Real *)
-  {
-    return 0;
-  }
-  template <class C>
-  LSDCD_FN static Real pulled(const Real *, const C &, const Real *, Real)
-  {
-    return 0;
-  }
-  template <class C>
-  LSDCD_FN static Real pull(const Real *, const C &, const Real *)
-  {
-    return 0;
   }
   template <class C>
   LSDCD_FN static Real loading(const Real *n, const C &c)
