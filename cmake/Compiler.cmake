@@ -50,6 +50,11 @@ if(LSDCD_CUDA)
     enable_language(CUDA)
     set(CMAKE_CUDA_STANDARD 17)
     set(CMAKE_CUDA_STANDARD_REQUIRED ON)
+    # CMake 3.25, that of Debian 12, does not know that nvcc has C++20, in which Kokkos 5 is written.
+    if(NOT DEFINED CMAKE_CUDA20_STANDARD_COMPILE_OPTION AND CMAKE_CUDA_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
+      set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION -std=c++20)
+      set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION -std=c++20)
+    endif()
     set(LSDCD_HAVE_CUDA ON)
     target_compile_options(lsdcd_options INTERFACE
       $<$<COMPILE_LANGUAGE:CUDA>:--fmad=false --extended-lambda -Xcompiler=-Wall,-Wextra,-ffp-contract=off>)
