@@ -213,6 +213,15 @@ def run_well(*args, **kwargs):
     return done.stdout
 
 
+def run_in_a_row(scripts, folder):
+    """What each of the scripts prints. One start of lmp-lsdcd runs them all, each after a `clear`, as a start takes longer than a short run."""
+    if ON_HOST:    # which loads the plugin for the first of them only
+        return [run_well(script, folder) for script in scripts]
+    end = "---- end of a script\n"
+    said = run_well("clear\n".join(f'{script}print "{end.rstrip()}"\n' for script in scripts), folder)
+    return said.split(end)[:-1]
+
+
 def flat_floor(folder, name="floor.stl"):
     (folder / name).write_bytes((HERE / "scripts" / "floor.stl").read_bytes())
 

@@ -40,7 +40,14 @@ def prepare(folder):
 
 def rows_of(folder, law, words, dt, run, columns=(), ranks=1, script=SCRIPT):
     """All rows of thermo."""
-    out = lmp.run_well(script.format(law=law, words=words, dt=repr(dt), run=run, columns=" ".join([*COLUMNS, *columns])), folder, ranks)
+    return rows_in(lmp.run_well(filled(law, words, dt, run, columns, script), folder, ranks), columns)
+
+
+def filled(law, words, dt, run, columns=(), script=SCRIPT):
+    return script.format(law=law, words=words, dt=repr(dt), run=run, columns=" ".join([*COLUMNS, *columns]))
+
+
+def rows_in(out, columns=()):
     return [dict(zip(("step", *NAMES, *columns), row)) for row in lmp.read_thermo(out)]
 
 
@@ -60,9 +67,11 @@ def test_bounce(folder):
 
     def falls(n):
         dt = math.pi / math.sqrt(POINTS * K / mass) / n
-        return [rows_of(folder, f"granular hooke {K} {E} damping coeff_restitution tangential linear_nohistory 0 0",
-                        cube(mass, 0.1, 0.2 + RADIUS + (5 + k / 8) * dt, "0 0 1", "velocity 0 0 -1"), dt, f"run {3 * n}", (BODY, OF_FLOOR, OF_CUBE))[-1]
-                for k in range(8)]
+        columns = (BODY, OF_FLOOR, OF_CUBE)
+        texts = lmp.run_in_a_row([filled(f"granular hooke {K} {E} damping coeff_restitution tangential linear_nohistory 0 0",
+                                         cube(mass, 0.1, 0.2 + RADIUS + (5 + k / 8) * dt, "0 0 1", "velocity 0 0 -1"), dt, f"run {3 * n}", columns)
+                                  for k in range(8)], folder)
+        return [rows_in(text, columns)[-1] for text in texts]
 
     def check(n, r):
         at_most(f"{n} steps: work, and what the cube loses", abs(r["work"] - (half - r[BODY])), 1e-12)

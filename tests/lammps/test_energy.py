@@ -44,8 +44,11 @@ fix             wall all wall/lsdcd {law} mesh floor.stl energy
 
 def books(folder, law, dt, run, x="0.3 0.2 0.4", v="0 0 0", move="fix move all nve/sphere", ranks=1):
     """The last row of the run."""
-    text = lmp.run_well(SPHERE.format(x=x, v=v, move=move, law=law, dt=repr(dt), columns=" ".join(COLUMNS), run=run), folder, ranks)
-    return row_of(text)
+    return row_of(lmp.run_well(filled(law, dt, run, x, v, move), folder, ranks))
+
+
+def filled(law, dt, run, x, v, move="fix move all nve/sphere"):
+    return SPHERE.format(x=x, v=v, move=move, law=law, dt=repr(dt), columns=" ".join(COLUMNS), run=run)
 
 
 def row_of(text):
@@ -74,7 +77,7 @@ def check_bounces(falls, half, check):
     as it leaves."""
     means = {}
     for n in (25, 50, 100, 200):
-        rows = falls(n)
+        rows = list(falls(n))
         means[n] = sum(r["remainder"] for r in rows) / 8 / half
         for r in rows:
             check(n, r)
@@ -94,8 +97,8 @@ def test_bounce(folder):
 
     def falls(n):
         dt = math.pi / math.sqrt(kn - gamma ** 2 / 4) / n
-        return [books(folder, f"hooke {kn} NULL {gamma!r} NULL 0 0", dt, f"run {3 * n}", v="0 0 -1", x=f"0.3 0.2 {0.5 + (5 + k / 8) * dt!r}")
-                for k in range(8)]
+        return map(row_of, lmp.run_in_a_row([filled(f"hooke {kn} NULL {gamma!r} NULL 0 0", dt, f"run {3 * n}", f"0.3 0.2 {0.5 + (5 + k / 8) * dt!r}", "0 0 -1")
+                                             for k in range(8)], folder))
     check_bounces(falls, 0.5, lambda n, r: at_most(f"{n} steps: energy that is lost, and the change of kinetic energy",
                                                    abs(r["work"] - (0.5 - r["ke"])), 1e-12))
 

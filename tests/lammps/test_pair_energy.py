@@ -45,10 +45,13 @@ def books(text):
     return [dict(zip(("step", "ke", "spin", "balance", *NAMES), row)) for row in lmp.read_thermo(text)]
 
 
+def script_of_two(law, dt, run, b, move, newton="off"):
+    return lmp.head("-3 3 -3 3 -3 3", newton=newton) + TWO.format(law=law, dt=dt, run=run, b=b, move=move)
+
+
 def two(folder, law, dt, run, b, move, ranks=1, newton="off"):
     """The books at the end."""
-    script = lmp.head("-3 3 -3 3 -3 3", newton=newton) + TWO.format(law=law, dt=dt, run=run, b=b, move=move)
-    return books(lmp.run_well(script, folder, ranks))[-1]
+    return books(lmp.run_well(script_of_two(law, dt, run, b, move, newton), folder, ranks))[-1]
 
 
 def test_bounce(folder):
@@ -59,7 +62,8 @@ def test_bounce(folder):
 
     def falls(n):
         dt = math.pi / math.sqrt(kn / reduced - gamma ** 2 / 4) / n
-        return [two(folder, f"law hooke {kn} NULL {gamma!r} NULL 0 0", dt, f"run {3 * n}", f"{1 + (5 + k / 8) * dt!r} 0 0", move) for k in range(8)]
+        return [books(text)[-1] for text in lmp.run_in_a_row(
+            [script_of_two(f"law hooke {kn} NULL {gamma!r} NULL 0 0", dt, f"run {3 * n}", f"{1 + (5 + k / 8) * dt!r} 0 0", move) for k in range(8)], folder)]
 
     def check(n, r):
         at_most(f"{n} steps: energy that is lost, and the change of kinetic energy", abs(r["work"] - (half - r["ke"])), 1e-12)

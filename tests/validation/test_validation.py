@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: GPL-2.0-only
 
 """The cases of ./run validate: each number is within its tolerance, the same at both cuts of a plane to the bit, and that of doc/validation.md.
-LSDCD_VALIDATION_WALL: the only wall to run at, for cases of minutes."""
+For cases of minutes
+LSDCD_VALIDATION_WALL is the only wall to run at, and with LSDCD_QUICK a case may have some of its numbers."""
 
 import os
 
 import pytest
 
+import lmp
 import suite
 from cases import CASES
 from facts import at_most, fact
@@ -19,7 +21,9 @@ ONLY = os.environ.get("LSDCD_VALIDATION_WALL")
 def test_case(name, folder):
     kept = {row["quantity"]: row for row in suite.kept_rows() if row["case"] == name}
     rows = suite.run_case(name, folder, ONLY)
-    fact("the page has these numbers", list(kept) == [r.quantity for r in rows], f"{set(kept) ^ {r.quantity for r in rows}}; ./run validate --keep")
+    seen = [r.quantity for r in rows]
+    some = lmp.QUICK and CASES[name].takes == suite.MINUTES
+    fact("the page has these numbers", seen and [q for q in kept if q in seen or not some] == seen, f"{set(kept) ^ set(seen)}; ./run validate --keep")
     for r in rows:
         for wall in r.seen:
             at_most(f"{r.quantity}, {wall}: {r.seen[wall]:.9g} is {r.expected:.9g}", r.deviation(wall), r.tolerance)
