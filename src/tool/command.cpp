@@ -190,7 +190,8 @@ bool Program::run(int argc, char **argv)
   }
   try {
     if (argc > 1 && !are_commands(*app_, argv + 1)) return false;
-    app_->parse(argc, argv);
+    const char *const help[] = {argv[0], "--help"};
+    app_->parse(argc > 1 ? argc : 2, argc > 1 ? argv : help);
   } catch (const CLI::ParseError &e) {
     if (e.get_exit_code() != 0 && is_option_unknown(*app_, "lsdcd")) return false;
     if (app_->exit(e) != 0) return false;

@@ -76,9 +76,9 @@ class Program : public Command {
   // Adds a command that is another program: it gets all words behind its name, `--help` included.
   void passes_on(const std::string &name, const std::string &help,
                  const std::function<void(const std::vector<std::string> &)> &run);
-  // Runs the command that the words name, or prints the help or the version. Returns whether the words are
-  // right; if not, it has printed what is wrong. Throws what a command throws, and InputError where the
-  // standard output has not accepted all that was printed.
+  // Runs the command that the words name, or prints the version or, also where there is no word, the help.
+  // Returns whether the words are right; if not, it has printed what is wrong. Throws what a command
+  // throws, and InputError where the standard output has not accepted all that was printed.
   bool run(int argc, char **argv);
 
  private:

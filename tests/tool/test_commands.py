@@ -244,6 +244,8 @@ def check_json(folder, commands):
 def test_commands(folder):
     scene(folder)
     said = run(folder, "--help").stdout
+    alone = run(folder)
+    fact("lsdcd alone prints its help", alone.returncode == 0 and alone.stdout == said, alone.stdout[:300] + alone.stderr)
     commands = re.findall(r"^  ([a-z]+)  ", said.split("Subcommands:")[1], re.M)
     fact("every command has a row here", set(commands) == set(NEEDS) == {g[0].split()[0] for g in GOOD},
          set(commands) ^ set(NEEDS))
