@@ -38,6 +38,7 @@ BENCHMARKS = {
     "scale": ("scale", CPU, SCRIPT + "kokkos_scale.py " + COMMON, "how many grains LAMMPS with Kokkos holds in a mesh, and what the wall costs then"),
     "hopper": ("hopper", CPU, SCRIPT + "kokkos_hopper.py " + COMMON, "what each fix adds to a hopper in a LAMMPS with Kokkos"),
     "liggghts": ("liggghts", CPU, SCRIPT + "liggghts.py " + COMMON, "our wall beside LIGGGHTS's"),
+    "cores": ("cores", CPU, SCRIPT + "cores.py " + COMMON, "where the time of a step goes on many cores, beside LIGGGHTS"),
     "hard-curves": ("hard_curves", CPU, SCRIPT + "hard_curves.py " + COMMON, "hard cases beside LIGGGHTS and another rule, as curves"),
     "floor": ("floor", CPU, SCRIPT + "own_walls.py floor " + COMMON, "a mesh beside a flat plane"),
     "region": ("region", CPU, SCRIPT + "own_walls.py region " + COMMON, "a mesh beside fix wall/gran/region"),
