@@ -111,6 +111,92 @@ def hours(cpu, cuda):
             f"sds and marshall in a box of {count(card['triangles'])} triangles).")
 
 
+# ---- many cores ------------------------------------------------------------------------------------
+
+NOT_MEASURED = "*Not measured yet: `./run bench cores --keep`.*"
+CORE_CASES = {"silo": "silo, 100 000 grains", "drum": "drum, 38 000", "impact": "impact, 25 000 and a ball", "mill": "mill, 30 000"}
+
+
+def core_rows():
+    """Rows of `./run bench cores`, each with its facts, its case and its program."""
+    path = DATA / "cores_cpu.csv"
+    rows = rows_of(path.name) if path.exists() else []
+    return [{**r, **facts(r), "bed": r["case"].partition(", ")[0], "of": r["case"].partition(", ")[2]} for r in rows]
+
+
+def ms_of(row, *names):
+    """Sum of these facts, ms a step."""
+    found = [float(row[name]) for name in names if row.get(name)]
+    return number(f"{sum(found):.6g}") if found else ""
+
+
+def cores_times(rows):
+    """Where the time of a step goes with the most processes: each bed and program as it is, and at its best."""
+    if not rows:
+        return NOT_MEASURED
+    most = max(int(r["ranks"]) for r in rows)
+    chosen = []
+    for bed in CORE_CASES:
+        for program in ("lsdcd", "LIGGGHTS"):
+            mine = [r for r in rows if (r["bed"], r["of"], r["ranks"]) == (bed, program, str(most))]
+            plain = [r for r in mine if "processors" not in r["order"] and "balance none" in r["order"]][:1]
+            best = sorted(mine, key=lambda r: float(r["median_ms"]))[:1]
+            chosen += plain + [r for r in best if r not in plain]
+    heads = ["bed", "program", "with", "a step, ms", "pairs", "lists", "communication", "wall", "rest", "largest over mean: pairs", "wall", "grains"]
+
+    def cells(r):
+        wall = ms_of(r, "wall_forces", "wall_search")
+        rest = float(r["median_ms"]) - sum(float(r.get(k) or 0) for k in ("pair", "neigh", "comm", "wall_forces", "wall_search"))
+        return [CORE_CASES[r["bed"]], {"lsdcd": "LSDCD"}.get(r["of"], r["of"]), r["order"], number(r["median_ms"]), ms_of(r, "pair"), ms_of(r, "neigh"),
+                ms_of(r, "comm"), wall, number(f"{rest:.6g}"), short(r.get("pair_over_mean", ""), 3), short(r.get("wall_over_mean", ""), 3),
+                short(r.get("grains_over_mean", ""), 3)]
+    return table(chosen, heads, cells) + f"\n\n* {most} processes, {chosen[0]['device'].partition(', ')[2]}."
+
+
+def cores_tried(rows):
+    """What was tried with the most processes in LSDCD, ms a step by bed."""
+    if not rows:
+        return NOT_MEASURED
+    most = max(int(r["ranks"]) for r in rows)
+    mine = [r for r in rows if r["of"] == "lsdcd" and int(r["ranks"]) * int(r["threads"]) == most and r["bed"] in CORE_CASES]
+    orders = list(dict.fromkeys(r["order"].replace(", lists multi, all", "") for r in mine))
+
+    def cells(order):
+        of = {r["bed"]: r for r in mine if r["order"].replace(", lists multi, all", "") == order}
+        return [order, *[number(of[bed]["median_ms"]) if bed in of else "" for bed in CORE_CASES]]
+    return table(orders, ["with", *[f"{bed}, ms" for bed in CORE_CASES]], cells)
+
+
+def cores_growth(rows):
+    """Parallel efficiency against one process, without balance and with it."""
+    if not rows:
+        return NOT_MEASURED
+    mine = [r for r in rows if r["of"] == "lsdcd" and r["threads"] == "1" and r["bed"] in CORE_CASES and "processors" not in r["order"]]
+    alone = {r["bed"]: float(r["median_ms"]) for r in mine if r["ranks"] == "1"}
+    ranks = sorted({int(r["ranks"]) for r in mine})
+
+    def cell(bed, n, words):
+        row = next((r for r in mine if (r["bed"], r["ranks"]) == (bed, str(n)) and r["order"].startswith(words)), None)
+        return f"{100 * alone[bed] / n / float(row['median_ms']):.0f} %" if row and bed in alone else ""
+    ways = (("as it is", "fix balance none"), ("balanced", "fix balance shift xyz, weight neigh"))
+    heads = ["processes", *[f"{bed}, {how}" for bed in CORE_CASES for how, _ in ways]]
+    return table(ranks, heads, lambda n: [str(n), *[cell(bed, n, words) if n > 1 or words.endswith("none") else "" for bed in CORE_CASES for _, words in ways]])
+
+
+def cores_wide(rows):
+    """Lists of 27 000 grains of 10:1."""
+    mine = [r for r in rows if r["bed"] == "wide"]
+    if not mine:
+        return NOT_MEASURED
+
+    def how(r):
+        lists = r["order"].partition("lists ")[2].partition(" threads")[0]
+        return {"": "`neighbor bin`", "multi": "`neighbor multi`"}.get(lists, "`neighbor multi`, `comm_modify mode multi`")
+    return table(mine, ["processes", "lists", "a step, ms", "pairs", "lists, ms", "communication", "wall"],
+                 lambda r: [r["ranks"], how(r), number(r["median_ms"]), ms_of(r, "pair"), ms_of(r, "neigh"), ms_of(r, "comm"),
+                            ms_of(r, "wall_forces", "wall_search")])
+
+
 NO_WALL = ", no wall"
 MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
 BEDS = ("flat floor", "closed box", "closed box, check yes", "closed box, granular", "bumpy floor")
@@ -668,8 +754,11 @@ def tables():
     study_cpu, study_cuda = (rows_of(f"accuracy_{device}.csv") for device in DEVICES)
     vessel = tradeoff("vessel")
     effects = [rows_of(f"effects_{device}.csv", ";") for device in DEVICES]
+    cores = core_rows()
     return {
-        "performance.md": {"hours": hours(kokkos_cpu, kokkos_cuda), "cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda)},
+        "performance.md": {"hours": hours(kokkos_cpu, kokkos_cuda), "cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda),
+                           "cores": cores_times(cores), "cores-tried": cores_tried(cores), "cores-growth": cores_growth(cores),
+                           "cores-wide": cores_wide(cores)},
         "notes/performance.md": {"scale": scale(rows_of("scale_cuda.csv")), "liggghts": liggghts(rows_of("liggghts_cpu.csv"))},
         "notes/accuracy.md": {"floor": f"{float(effects[0][0]['min_ns']):.0f} ns"},
         "library-queries.md": {"point-costs": point_costs(cpu)},

@@ -265,6 +265,7 @@ void FixSpringsLsdcd::bring_to_atoms()
 void FixSpringsLsdcd::pre_exchange()
 {
   between_runs = false;
+  speed.see_new_list();
   bring_to_atoms();
 }
 
@@ -284,6 +285,7 @@ void FixSpringsLsdcd::post_run()
   between_runs = true;
   keep_names();
   tell_cleared();
+  for (const std::string &words : speed.end_run(this)) log(words);
 }
 
 // No dump has the springs of its snapshots, and what is there is of another time. LAMMPS's write_data calls this between runs, and
@@ -306,6 +308,7 @@ void FixSpringsLsdcd::forget()
 void FixSpringsLsdcd::init()
 {
   watch.init(*update);
+  speed.begin_run();
   if (!between_runs) return;
   if (keeps()) rename_partners();
   keep_names();

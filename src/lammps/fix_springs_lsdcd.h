@@ -12,6 +12,7 @@
 #include "engine/results/booked_energy.h"
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
+#include "lammps/run_speed.h"
 #include "pair/partners.h"
 
 #include <functional>
@@ -121,6 +122,7 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   // Commands between runs may give atoms other IDs. known_as: the ID by which partners know an atom; 0: the atom is new.
   bool between_runs = true;
   std::vector<tagint> known_as;
+  lsdcd::RunSpeed speed{lmp};
   RerunWatch watch;
   // The radii of atoms when the list was made, if fix adapt changes radii before the step of pairs.
   bool watches_radii = false;

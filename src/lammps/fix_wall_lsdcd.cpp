@@ -290,6 +290,7 @@ int FixWallLsdcd::setmask()
 void FixWallLsdcd::init()
 {
   watch.init(*update);
+  speed.begin_run();
   nlevels_respa = 0;
   rigid = adapts = false;
   for (const Fix *fix : lsdcd::host_fixes(*modify)) {
@@ -357,6 +358,7 @@ void FixWallLsdcd::min_setup(int /*vflag*/)
 
 void FixWallLsdcd::pre_exchange()
 {
+  speed.see_new_list();
   if (spheres_go_far()) need_positions();
   const lsdcd::HostSpheres s = spheres();
   wall->poll_diagnostics(s);
@@ -412,6 +414,7 @@ void FixWallLsdcd::post_run()
   if (spheres_go_far()) need_positions();
   set_up_at = -1;
   wall->end_run(spheres(), spheres_go_far(), advice, timer->get_wall(Timer::TOTAL));
+  for (const std::string &words : speed.end_run(this)) log(words);
 }
 
 // ---- a step ------------------------------------------------------------------------------

@@ -12,6 +12,7 @@
 #include "lammps/output_variables.h"
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
+#include "lammps/run_speed.h"
 #include "lammps/shape_atoms.h"
 #include "lammps/wall_picture.h"
 #include "wall/spec/run_files.h"
@@ -90,6 +91,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   void name_outputs(const std::vector<std::string> &words, int mesh);
   std::vector<std::string> material_files;    // that the first process has read
 
+  lsdcd::RunSpeed speed{lmp};
   RerunWatch watch;
   bool rerun = false;           // this is a snapshot of one
   bigint set_up_at = -1;        // the step in which a run was set up
