@@ -255,7 +255,7 @@ def ours(case, name, item, warm, steps, ab):
 
 
 def theirs(case, name, item, warm, steps, folder):
-    """A deck of LIGGGHTS."""
+    """A deck of LIGGGHTS, which has no fix balance."""
     table, n = numbers(folder), case.materials
     each = " ".join(f"{table[frozenset([m])]['youngs_modulus']:.9g}" for m in n)
 
@@ -276,7 +276,6 @@ def theirs(case, name, item, warm, steps, folder):
         f"fix m4 all property/global coefficientFriction peratomtypepair {len(n)} {of_pairs('sliding_friction')}",
         "pair_style gran model hertz tangential history", "pair_coeff * *", f"fix fall all gravity {G} vector 0 0 -1", *mesh, *turn,
         f"fix wall all wall/gran model hertz tangential history mesh n_meshes {len(mesh)} meshes {names}", "fix move all nve/sphere",
-        f"fix even all balance {REBALANCE} {item.balance} 20 1.05" if item.balance else "",
         "modify_timing on", "thermo 100000000", f"run {warm}", f"run {steps}", ""])
 
 
@@ -336,7 +335,6 @@ def items(options, known):
         for grid in GRIDS[name]:
             made += [Item(2, name, "lsdcd", most, processors=grid, lists=lists), Item(2, name, "LIGGGHTS", most, processors=grid),
                      Item(2, name, "lsdcd", most, processors=grid, balance="shift " + free_axes(grid), weight="neigh", lists=lists)]
-        made.append(Item(2, name, "LIGGGHTS", most, balance="shift xyz"))
         made += [Item(4, name, "lsdcd", most // n, threads=n, balance=BEST * (most > n), weight="neigh" * (most > n), lists=lists)
                  for n in (2, 4) if most % n == 0]
         if known[name].lists != "bin":
