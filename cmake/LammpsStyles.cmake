@@ -9,7 +9,7 @@ set(LSDCD_STYLE_SOURCES compute_collide_lsdcd.cpp compute_collide_lsdcd_bodies.c
   host_atoms.cpp host_box.cpp host_pairs.cpp
   shape_atoms.cpp
   lammps_host.cpp mpi_host.cpp mpi_mesh.cpp node_atoms.cpp other_fixes.cpp own_messages.cpp output_variables.cpp own_wall_gran.cpp pair_granular_lsdcd.cpp
-  region_mesh_lsdcd.cpp rerun_watch.cpp run_speed.cpp wall_clearance.cpp wall_picture.cpp)
+  region_mesh_lsdcd.cpp rerun_watch.cpp run_advice.cpp run_speed.cpp wall_clearance.cpp wall_picture.cpp)
 
 # 20210929 for a version.h with "29 Sep 2021"; empty for none.
 function(lsdcd_version_of header result)

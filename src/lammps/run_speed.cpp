@@ -3,10 +3,10 @@
 
 #include "lammps/run_speed.h"
 
-#include "host/run_advice.h"
 #include "lammps/host_box.h"
 #include "lammps/host_fixes.h"
 #include "lammps/mpi_host.h"
+#include "lammps/run_advice.h"
 
 #include "atom.h"
 #include "lammps.h"

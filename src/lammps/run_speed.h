@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What the first of our fixes in a script says at the end of a run of its own speed; see host/run_advice.h.
+// What the first of our fixes in a script says at the end of a run of its own speed; see lammps/run_advice.h.
 #ifndef LSDCD_RUN_SPEED_H
 #define LSDCD_RUN_SPEED_H
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
-// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-License-Identifier: GPL-2.0-only
 
 // What a run says at its end of processes that wait and of its skin, from numbers whose answers are counted by hand.
-#include "host/run_advice.h"
+#include "lammps/run_advice.h"
 #include "support/fake_host.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
-// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-License-Identifier: GPL-2.0-only
 
 // What a run says at its end of its own speed: processes that wait for the busiest, neighbour lists that last too short or too long.
 #pragma once

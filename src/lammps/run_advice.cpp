@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
-// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-License-Identifier: GPL-2.0-only
 
-#include "host/run_advice.h"
+#include "lammps/run_advice.h"
 
 #include "base/number_words.h"
 
