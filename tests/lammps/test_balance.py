@@ -2,7 +2,12 @@
 # SPDX-License-Identifier: GPL-2.0-only
 
 """A rotating drum with load balancing on 1 to 8 ranks: the same physics, no sphere lost, and every
-contact that there is by brute force over all triangles. LSDCD_QUICK=1: on 1 and 4, in fewer steps."""
+contact that there is by brute force over all triangles. LSDCD_QUICK=1: on 1 and 4, in fewer steps.
+
+Then all that is kept of grains and pairs goes to another process each tenth step: springs of pairs and of the wall, with what both
+dissipate, insertion and mass flow. LSDCD_QUICK=1: on 2 and 3."""
+
+import itertools
 
 import numpy
 
@@ -70,3 +75,59 @@ def test_totals_and_rows(folder):
             continue
         apart = numpy.abs(totals - alone) / numpy.abs(alone).max(0)
         at_most(f"{at}: totals as on one", apart[totals[:, 0] <= ALIKE].max(), GROWTH)
+
+
+# ---- balance in each tenth step ------------------------------------------------------------
+
+# Grains that overlap from the first step on, in the lower half of the drum, under an inlet; others pass the plane of the mass flow.
+LIFE_STEPS = 150
+LAW_OF_GRAINS = "hooke 2e4 60 tangential linear_history 1e4 1 0.5 damping mass_velocity rolling sds 5e3 20 0.1"
+LIFE = drum.BEGIN.replace("pair_style      gran/hooke/history", "pair_style      granular/lsdcd #").replace(
+    "pair_coeff      * *", f"pair_coeff      * * {LAW_OF_GRAINS}").replace(
+    f"wall/lsdcd {drum.LAW}", f"wall/lsdcd granular {LAW_OF_GRAINS}").replace(" contacts\n", " contacts energy\n")
+MEASURED = f"""\
+region upper block INF INF INF INF 0 INF
+delete_atoms region upper compress no
+velocity all set 0.1 0 -3
+fix in all insert/lsdcd mesh inlet.stl massrate 40 diam poly 2 0.4 0.5 0.5 0.5 dens 2 type 1 vel normal 2 seed 11
+fix flow all massflow/lsdcd mesh plane.stl
+fix_modify wall names wall all
+compute grains all lsdcd/energy
+thermo_style custom step atoms ke f_wall[1] f_wall[2] f_wall[3] f_wall[7] f_in[1] f_in[2] f_flow[*] c_grains[*] &
+             v_wall_dissipated_damping v_wall_dissipated_slider v_wall_dissipated_rolling v_wall_drive_work
+thermo_modify norm no format float %.17g
+thermo 10
+dump rows all custom {LIFE_STEPS} life id x y z vx vy vz omegax omegay omegaz
+dump_modify rows format float %.17g sort id
+run {LIFE_STEPS}
+"""
+BY = {"shift": "shift xz 10 1.01", "rcb": "rcb"}
+# Sums in another order part paths by 1e-16 of the largest forces; a contact of 15 steps lets that grow by less than 10, and none has more
+# than five in the run.
+SAME = 1e-10
+
+
+def life(folder, ranks, how=None):
+    """Thermo rows and the last dump: of one life, with balance in each tenth step by `how`."""
+    begin = LIFE.replace("comm_style brick", "comm_style tiled") if how == "rcb" else LIFE
+    balance = f"fix even all balance 10 1.0 {BY[how]}\n" if how else ""
+    text = lmp.run_well(begin + balance + MEASURED, folder, ranks)
+    dump = lmp.read_dump(folder / "life")
+    return numpy.array(lmp.read_thermo(text)), dump[LIFE_STEPS]
+
+
+def test_lives_with_balance(folder):
+    stl.write(folder / "drum.stl", drum.triangles())
+    stl.write(folder / "inlet.stl", [t[::-1] for t in stl.square(1.0, 2.0)])
+    stl.write(folder / "plane.stl", stl.square(4.5, -0.75))
+    drum.write_data(folder / "drum.data", spacing=0.69)
+    alone, grains = life(folder, 1)
+    touching, inserted, passed = alone[:, 6].max(), alone[-1, 7], alone[-1, 11]
+    fact("grains touch the wall, come, and pass the plane", min(touching, inserted, passed) > 5, f"{touching}, {inserted}, {passed}")
+    for ranks, how in ((2, "shift"), (3, "rcb")) if lmp.QUICK else itertools.product((1, 2, 4, 8), BY):
+        rows, same = life(folder, ranks, how)
+        at = f"{ranks} ranks, {how}"
+        fact(f"{at}: the same grains", set(same) == set(grains), f"{len(same)}, {len(grains)}")
+        size = numpy.maximum(numpy.abs(alone).max(0), 1)    # some cancel to what rounding of larger ones leaves
+        at_most(f"{at}: totals, energies, insertion and mass flow as on one", (numpy.abs(rows - alone) / size).max(), SAME)
+        at_most(f"{at}: grains as on one", lmp.largest_difference({0: grains}, {0: same}), SAME)
