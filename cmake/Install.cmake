@@ -104,6 +104,6 @@ if(TARGET lsdcdplugin)
   # LAMMPS starts MPI also where it runs alone, and Open MPI then starts a program of mpi-default-bin, on which no library depends.
   lsdcd_package(lammps lammps-lsdcd science "lsdcd-data (= ${PROJECT_VERSION}), mpi-default-bin${host}"
     "DEM walls from triangle meshes for LAMMPS"
-    "The plugin with fix wall/lsdcd, fix massflow/lsdcd, fix insert/lsdcd,\ncompute lsdcd/collide and compute lsdcd/energy, and lmp-lsdcd,\na LAMMPS that has them built in.")
+    "The plugin with fix wall/lsdcd, fix massflow/lsdcd, fix insert/lsdcd,\ncompute lsdcd/collide, compute lsdcd/energy and compute lsdcd/impacts,\nand lmp-lsdcd, a LAMMPS that has them built in.")
 endif()
 include(CPack)

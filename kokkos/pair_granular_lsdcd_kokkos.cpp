@@ -44,6 +44,9 @@ void PairGranularLsdcdKokkos<DeviceType>::init_style()
   atomKK->sync(Host, TAG_MASK | RADIUS_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK);
   full = lmp->kokkos->neighflag == FULL;
   PairGranularLsdcd::init_style();
+  if (has_impacts())
+    fatal("compute lsdcd/impacts records impacts between grains that the CPU computes without "
+          "Kokkos: write 'suffix off' before pair_style granular/lsdcd");
   lsdcd::to_device(limits, d_limits);
   if (has_heat && !lsdcd::kOnCpu<DeviceType>)
     fatal("the sub-model heat does not work for atoms on a GPU, where LAMMPS keeps no temperature: "

@@ -17,7 +17,7 @@ PACKAGE = pathlib.Path(__file__).resolve().parent / "lsdcd"
 FILE, STYLES_FILE = PACKAGE / "_names.py", PACKAGE / "_style_outputs.py"
 PAGES = PACKAGE.parent.parent.parent / "doc"
 PAGE_OF = {"massflow/lsdcd": "fix_massflow_lsdcd", "insert/lsdcd": "fix_insert_lsdcd", "lsdcd/energy": "compute_lsdcd_energy",
-           "lsdcd/collide": "compute_lsdcd_collide"}
+           "lsdcd/impacts": "compute_lsdcd_impacts", "lsdcd/collide": "compute_lsdcd_collide"}
 HEAD = '''# SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
@@ -41,7 +41,7 @@ STYLES_HEAD = '''# SPDX-FileCopyrightText: 2026 LSDCD contributors
 """The numbers of styles of LAMMPS beside fix wall/lsdcd, in their order: name, kind of unit, what they are. Written by make_names.py, from
 the pages of the styles."""
 
-# The last row of a compute is its scalar.
+# The last row of lsdcd/energy and lsdcd/collide is the scalar.
 STYLE_OUTPUTS: dict[str, list[tuple[str, str, str]]] = {
 '''
 

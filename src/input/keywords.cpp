@@ -135,18 +135,6 @@ void read_wear(Tokens &w, WallCommand &s)
   s.wall.wear_deform.factor = w.number("F", kAboveZero);
 }
 
-FileEvery read_file_every(Tokens &w, const std::string &end)
-{
-  FileEvery file;
-  if (w.done()) w.fail("the file name is missing");
-  file.name = w.take();
-  const std::string wrong = wrong_series_name(file.name, end);
-  if (!wrong.empty()) w.fail(wrong);
-  if (w.done() || w.take() != "every") w.fail("'every N' is missing");
-  file.every = static_cast<int>(w.whole("N", kStepsRange));
-  return file;
-}
-
 void read_name(Tokens &w, MeshSpec &s, InputNames &)
 {
   if (w.done()) w.fail("the name is missing");
@@ -370,6 +358,18 @@ const Keyword kSettings[] = {LSDCD_WALL_SETTINGS(LSDCD_KEYWORD)
 #undef LSDCD_MESH_KEYWORD
 
 }    // namespace
+
+FileEvery read_file_every(Tokens &w, const std::string &end)
+{
+  FileEvery file;
+  if (w.done()) w.fail("the file name is missing");
+  file.name = w.take();
+  const std::string wrong = wrong_series_name(file.name, end);
+  if (!wrong.empty()) w.fail(wrong);
+  if (w.done() || w.take() != "every") w.fail("'every N' is missing");
+  file.every = static_cast<int>(w.whole("N", kStepsRange));
+  return file;
+}
 
 const std::vector<Keyword> &keywords()
 {

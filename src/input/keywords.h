@@ -44,6 +44,8 @@ bool read_mesh_word(const std::string &word, Tokens &w, MeshSpec &mesh);
 // bytes.
 int read_nearest(Tokens &);
 std::size_t read_memory(Tokens &);
+// Returns the values FILE every N, of a file whose name ends in `end`.
+FileEvery read_file_every(Tokens &w, const std::string &end);
 // Is this keyword given a second time although that is not allowed? `seen` has those before it.
 bool is_twice(const std::string &word, std::vector<std::string> &seen);
 

@@ -14,6 +14,7 @@
 #include "domain.h"
 #include "force.h"
 #include "memory.h"
+#include "neighbor.h"
 #include "update.h"
 
 #include <algorithm>
@@ -93,6 +94,16 @@ int answer(int n, char *messages, int &flag, int *&to, char *&answers, void *lmp
   return asked;
 }
 
+// Adds the impacts whose halves have come together; see Comm::rendezvous().
+int add_halves(int n, char *messages, int &flag, int *&, char *&, void *spectra)
+{
+  const auto *const all = reinterpret_cast<const lsdcd::HalfImpact *>(messages);
+  std::vector<lsdcd::HalfImpact> halves(all, all + n);
+  static_cast<lsdcd::PairSpectra *>(spectra)->add(halves);
+  flag = 0;    // there are no answers
+  return 0;
+}
+
 }    // namespace
 
 FixSpringsLsdcd::FixSpringsLsdcd(LAMMPS *lmp, int narg, char **arg) :
@@ -134,7 +145,9 @@ void FixSpringsLsdcd::set_laws(int width, bool booked, const std::string &of_law
         "the restart file has springs of other contact laws than pair_coeff gives: give those of "
         "the run that wrote it, or begin without springs by a data file (write_data)");
   from_file = false;
-  const int all = width + (booked ? lsdcd::kKeptForces : 0);
+  const int without = width + (booked ? lsdcd::kKeptForces : 0);
+  const bool touch = has_impacts && without == 0;
+  const int all = without + (touch ? 1 : 0);
   if (!same) {
     if (largest_packed_size() > 1)
       warn("the contact laws have changed, and what pairs had kept is gone: contacts begin anew");
@@ -147,14 +160,62 @@ void FixSpringsLsdcd::set_laws(int width, bool booked, const std::string &of_law
         {all, by_law,
          of_atoms().form().by_image});    // a setup gives pairs the forces that they keep
   }
-  if (!same || booked != books) {
+  if (!same || booked != books || touch != keeps_touch) {
     in_pairs = false;
     new_list = true;
   }
   if (!booked) energy = {};
   books = booked;
+  keeps_touch = touch;
   law_width = width;
   kinds = of_laws;
+}
+
+void FixSpringsLsdcd::record_impacts(double least_speed)
+{
+  has_impacts = least_speed > 0;
+  if (!has_impacts) impacts = {};
+  if (impacts.set(least_speed, force->ftm2v))
+    warn("impacts between grains were recorded from another speed on: they are counted anew");
+}
+
+// A pair of grains of two processes is known to both of them, or with newton on to one, which tells the other one. What each of the two has
+// taken from the speed of the impact comes together on the process that answers for the grain with the lower ID.
+void FixSpringsLsdcd::add_impacts(const lsdcd::PairJob &step)
+{
+  if (keeps_touch)
+    std::fill_n(next().column(0), next().size(), 0.0);    // laws without springs write nothing
+  if (!step.update) return;
+  const lsdcd::StepImpacts found(step, [this](int i) { return atom->tag[i]; });
+  const auto anywhere = [this](bool here) {
+    int any = here;
+    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
+    return any != 0;
+  };
+  std::size_t n_here = 0;
+  std::vector<lsdcd::HalfImpact> halves;
+  if (!force->newton_pair) {
+    halves = found.halves(nullptr, n_here);
+  } else if (anywhere(found.any())) {
+    lsdcd::KeptRows contacts = found.contacts_of_copies(atom->nlocal + atom->nghost);
+    contacts_told = &contacts;
+    tell_owners();
+    contacts_told = nullptr;
+    halves = found.halves(&contacts, n_here);
+  }
+  if (comm->nprocs == 1) n_here = halves.size();
+  std::vector<lsdcd::HalfImpact> apart(halves.begin() + static_cast<std::ptrdiff_t>(n_here),
+                                       halves.end());
+  halves.resize(n_here);
+  impacts.add(halves);
+  if (comm->nprocs == 1 || !anywhere(!apart.empty())) return;
+  std::vector<int> to;
+  for (const lsdcd::HalfImpact &half : apart)
+    to.push_back(static_cast<int>(half.names().first % comm->nprocs));
+  char *none = nullptr;
+  comm->rendezvous(1, static_cast<int>(apart.size()), reinterpret_cast<char *>(apart.data()),
+                   sizeof(lsdcd::HalfImpact), 0, to.data(), add_halves, 0, none,
+                   sizeof(lsdcd::HalfImpact), &impacts);
 }
 
 void FixSpringsLsdcd::begin_step(const lsdcd::PairList &of_step, bool types_changed)
@@ -357,20 +418,20 @@ void FixSpringsLsdcd::rename_partners()
 int FixSpringsLsdcd::pack_reverse_comm_size(int n, int first)
 {
   int size = 0;
-  for (int i = first; i < first + n; i++) size += of_atoms().packed_size(i);
+  for (int i = first; i < first + n; i++) size += told().packed_size(i);
   return size;
 }
 
 int FixSpringsLsdcd::pack_reverse_comm(int n, int first, double *buf)
 {
   double *const begin = buf;
-  for (int i = first; i < first + n; i++) buf += of_atoms().pack(i, buf);
+  for (int i = first; i < first + n; i++) buf += told().pack(i, buf);
   return static_cast<int>(buf - begin);
 }
 
 void FixSpringsLsdcd::unpack_reverse_comm(int n, int *atoms, double *buf)
 {
-  for (int k = 0; k < n; k++) buf += of_atoms().unpack_more(atoms[k], buf);
+  for (int k = 0; k < n; k++) buf += told().unpack_more(atoms[k], buf);
 }
 
 // ---- atoms move --------------------------------------------------------------------------
@@ -418,6 +479,7 @@ void FixSpringsLsdcd::write_restart(FILE *file)
   lsdcd::MpiHost host(world);
   lsdcd::BookedEnergy everywhere = energy;
   lsdcd::sum_over_processes(host, &everywhere, 1);
+  const lsdcd::PairSpectra struck = impacts.summed(host, atom->ntypes);
   const lsdcd::PartnerForm form = of_atoms().form();
   if (comm->me != 0) return;
   run_core_here([&] {
@@ -427,6 +489,7 @@ void FixSpringsLsdcd::write_restart(FILE *file)
     if (form.by_law) state.add("kinds of springs", 1, true);
     if (form.by_image) state.add("images", 1, true);
     if (books) state.add("energy", 1, everywhere);
+    if (has_impacts) state.add("impacts", 1, struck.saved());
     write_state(file, state);
   });
 }
@@ -442,6 +505,8 @@ void FixSpringsLsdcd::restart(char *buffer)
     const lsdcd::Real dt = energy.dt;
     if (comm->me != 0) energy = {};
     energy.dt = dt;
+    lsdcd::PairSpectra::Saved struck;
+    if (state.find("impacts", 1, struck) && comm->me == 0) impacts.restore(struck);
     lsdcd::PartnerForm form = {law_width};
     state.find("kinds of springs", 1, form.by_law);
     state.find("images", 1, form.by_image);
@@ -491,5 +556,5 @@ void FixSpringsLsdcd::unpack_restart(int i, int nth)
 double FixSpringsLsdcd::memory_usage()
 {
   return static_cast<double>(partners.bytes() + history[0].bytes() + history[1].bytes() +
-                             listed_type.capacity() * sizeof listed_type[0]);
+                             impacts.bytes() + listed_type.capacity() * sizeof listed_type[0]);
 }

@@ -13,6 +13,7 @@
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
 #include "lammps/run_speed.h"
+#include "pair/pair_impacts.h"
 #include "pair/partners.h"
 
 #include <functional>
@@ -67,6 +68,10 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   // Sets the laws before a run. `width`: how many numbers laws keep of a pair; 0: none. `books`: pairs keep KeptForces behind these.
   // `kinds`: of all pairs of types, with a ';' behind each.
   virtual void set_laws(int width, bool books, const std::string &kinds, const LawsOfTypes &laws);
+  // Says before set_laws() that impacts are recorded which are faster than this (length/time); 0: none are.
+  void record_impacts(double least_speed);
+  // Adds the impacts of a step of pairs that has run. Collective.
+  void add_impacts(const lsdcd::PairJob &step);
   // Prepares for a step of the pairs in this list. `types_changed`: types may have changed since the last step, with the same list.
   void begin_step(const lsdcd::PairList &list, bool types_changed);
   const lsdcd::PairHistory &old() const { return history[1 - now]; }
@@ -99,6 +104,10 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   int law_width = 0;             // numbers of the laws, which are in restart files
   lsdcd::BookedEnergy energy;    // of pairs on this process, if it is recorded
   bool books = false;
+  lsdcd::PairSpectra impacts;    // of pairs on this process
+  bool has_impacts = false;
+  // If impacts are recorded, and pairs keep nothing else, they keep a 0, so that the next step knows which contacts begin.
+  bool keeps_touch = false;
   lsdcd::PairHistory history[2];
   int now = 0;              // which of them the last step has written
   lsdcd::PairList list;     // of the last step
@@ -131,6 +140,10 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
  private:
   void bring_to_atoms();
   void rename_partners();
+  lsdcd::KeptRows &told() { return contacts_told ? *contacts_told : of_atoms(); }
+
+  lsdcd::KeptRows *contacts_told =
+      nullptr;    // while owners are told of contacts in place of partners
 };
 
 }    // namespace LAMMPS_NS

@@ -4,6 +4,7 @@
 #include "lammps/other_fixes.h"
 
 #include "lammps/compute_collide_lsdcd.h"
+#include "lammps/compute_impacts_lsdcd.h"
 #include "lammps/fix_insert_lsdcd.h"
 #include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/fix_wall_lsdcd.h"
@@ -44,9 +45,13 @@ void for_files_beside(const Fix &of, LAMMPS &lmp, const Use &use)
 {
   for (const Fix *fix : lsdcd::host_fixes(*lmp.modify))
     if (fix != &of) use(files_of_fix(fix), "fix " + std::string(fix->id));
-  for (const Compute *compute : lsdcd::host_computes(*lmp.modify))
+  for (const Compute *compute : lsdcd::host_computes(*lmp.modify)) {
+    const std::string name = "compute " + std::string(compute->id);
     if (const auto *collide = dynamic_cast<const ComputeCollideLsdcd *>(compute))
-      use(collide->files(), "compute " + std::string(compute->id));
+      use(collide->files(), name);
+    if (const auto *impacts = dynamic_cast<const ComputeImpactsLsdcd *>(compute))
+      use(impacts->files(), name);
+  }
   for (const Region *region : lsdcd::host_regions(*lmp.domain))
     if (const auto *mesh = dynamic_cast<const RegionMeshLsdcd *>(region))
       use({{"mesh", mesh->mesh_file()}}, "region " + std::string(region->id));

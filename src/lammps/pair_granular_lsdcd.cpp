@@ -193,6 +193,7 @@ void PairGranularLsdcd::init_style()
   books = std::any_of(computes.begin(), computes.end(), [](const Compute *compute) {
     return std::strcmp(compute->style, "lsdcd/energy") == 0;
   });
+  find_impacts();
 
   const int n = n_types + 1;
   coeffs.clear();
@@ -323,7 +324,7 @@ void PairGranularLsdcd::set_springs()
       any = true;
       width = std::max(width, 3 + law.n_extra());
     }
-  any = any || books || adapts;
+  any = any || books || adapts || has_impacts();
   if (books)
     for (unsigned &flips : flips_of) flips |= lsdcd::KeptForces::flips() << width;
   if (any && !springs)
@@ -334,6 +335,7 @@ void PairGranularLsdcd::set_springs()
   if (!springs) return;
   check_order();
   springs->watches_radii = adapts;
+  springs->record_impacts(impacts_asked.least_speed);
   springs->set_laws(width, books, kinds,
                     {[this](int i, int j) { return flips_of[law_index(i, j)]; },
                      [this](int i, int j) { return numbers[law_index(i, j)].history_kind(); }});
@@ -720,6 +722,7 @@ void PairGranularLsdcd::compute(int eflag, int vflag)
   if (books) step.energy = &rows;
   lsdcd::run_pairs(step);
   if (books) add_booked(rows, !step.update, step.dt);
+  if (has_impacts()) record_impacts(step);
   for (const lsdcd::RecordedPair &p : record)
     ev_tally_xyz(p.i, p.j, atom->nlocal, force->newton_pair, p.energy, 0, p.force.x, p.force.y,
                  p.force.z, p.offset.x, p.offset.y, p.offset.z);

@@ -8,7 +8,9 @@
 #include "pair.h"
 
 #include "engine/results/booked_energy.h"
+#include "input/impacts_settings.h"
 #include "lammps/own_messages.h"
+#include "output/impact_spectrum.h"
 #include "pair/pair_coeff.h"
 #include "pair/pair_job.h"
 #include "wall/spec/run_files.h"
@@ -42,6 +44,9 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::vector<lsdcd::RunFile> files() const;    // that it has read, on the first process
   // Returns what pairs of this process have done with energy, for compute lsdcd/energy.
   const lsdcd::BookedEnergy &booked() const;
+  // Returns the spectra of impacts since the beginning of all pairs of types that have some, over all processes, for compute lsdcd/impacts.
+  // Collective.
+  std::vector<lsdcd::TypesSpectrum> impacts() const;
 
  protected:
   // Return the name of the fix for springs, ask for the list of pairs, and return what a pair keeps as atom i sees it (empty: nothing).
@@ -81,6 +86,11 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   void check_step();
   void set_limits();
 
+  // pair_granular_lsdcd_impacts.cpp
+  void find_impacts();
+  double share_of(int i, int j) const;    // of the energy of an impact that grains of type i take
+  void record_impacts(const lsdcd::PairJob &step);
+
   double cutoff = -1;
   double coarse_grain = 1;    // grains are so many times as large as those of the coefficients
   std::map<std::pair<int, int>, lsdcd::PairCoeff> given;    // i <= j
@@ -97,12 +107,15 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   double warned_of = 0;         // the timestep that the last warning was about
   std::string springs_id, dummy_id;
   std::vector<lsdcd::RecordedPair> record;
+  bool told_of_spectrum = false;    // in this run, that it cannot be written
 
  protected:
   int n_types = 0;
   std::vector<lsdcd::ContactLaw> numbers;    // of each law
   std::vector<int> law_of;                   // of types i and j at i * (n_types + 1) + j
   bool has_heat = false, books = false;
+  lsdcd::ImpactsSettings impacts_asked;    // by a compute
+  bool has_impacts() const { return impacts_asked.least_speed > 0; }
   bool adapts = false;    // there is a fix adapt, which may change radii
   // limits: radii up to which lists hold grains of each type, at 2 * type, and those of fix freeze behind it. listed_radius: radii of atoms
   // when lists were made, if there is no fix adapt.

@@ -5,6 +5,7 @@
 
 #include "lammps/compute_collide_lsdcd.h"
 #include "lammps/compute_energy_lsdcd.h"
+#include "lammps/compute_impacts_lsdcd.h"
 #include "lammps/fix_insert_lsdcd.h"
 #include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/fix_springs_lsdcd.h"
@@ -83,6 +84,9 @@ void add_plain_styles(void *lmp, void *handle, void *regfunc)
   add_style("compute", lmp, handle, regfunc, "lsdcd/energy",
             "compute lsdcd/energy: what contacts of pair_style granular/lsdcd dissipate",
             create_style<Compute, GuardedCompute<ComputeEnergyLsdcd>>);
+  add_style("compute", lmp, handle, regfunc, "lsdcd/impacts",
+            "compute lsdcd/impacts: how hard grains of pair_style granular/lsdcd hit each other",
+            create_style<Compute, GuardedCompute<ComputeImpactsLsdcd>>);
   add_style("region", lmp, handle, regfunc, "mesh/lsdcd",
             "region mesh/lsdcd: the inside of a closed mesh",
             create_style<Region, GuardedRegion<RegionMeshLsdcd>>);

@@ -18,7 +18,20 @@ const std::vector<Real> &begins()
   return all;
 }
 
+constexpr char kColumns[] = "energy_from,energy_to,impacts,energy";
+
+std::string row_text(const ImpactSpectrum::Row &r)
+{
+  return exact_text(r.begins) + "," + exact_text(r.ends) + "," + exact_text(r.impacts) + "," +
+         exact_text(r.energy);
+}
+
 }    // namespace
+
+void ImpactSpectrum::add(Real energy)
+{
+  ImpactBins{bins_.data(), begins().data()}.add(energy);
+}
 
 void ImpactSpectrum::add(const EnergyRecords &records, std::uint32_t mesh)
 {
@@ -85,10 +98,19 @@ Real ImpactSpectrum::energy() const
 
 void write_spectrum(const std::string &path, const ImpactSpectrum &spectrum)
 {
-  std::string text = "energy_from,energy_to,impacts,energy\n";
-  for (const ImpactSpectrum::Row &r : spectrum.rows())
-    text += exact_text(r.begins) + "," + exact_text(r.ends) + "," + exact_text(r.impacts) + "," +
-            exact_text(r.energy) + "\n";
+  std::string text = std::string(kColumns) + "\n";
+  for (const ImpactSpectrum::Row &r : spectrum.rows()) text += row_text(r) + "\n";
+  write_whole_file(path, text);
+}
+
+void write_spectra(const std::string &path, const std::vector<TypesSpectrum> &spectra)
+{
+  std::string text = std::string("type_i,type_j,") + kColumns + ",energy_i,energy_j\n";
+  for (const TypesSpectrum &of : spectra)
+    for (const ImpactSpectrum::Row &r : of.spectrum.rows())
+      text += std::to_string(of.type_i) + "," + std::to_string(of.type_j) + "," + row_text(r) +
+              "," + exact_text(of.share_i * r.energy) + "," +
+              exact_text((1 - of.share_i) * r.energy) + "\n";
   write_whole_file(path, text);
 }
 

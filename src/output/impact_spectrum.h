@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The spectrum of the impacts on a mesh since the beginning, and its file.
+// The spectrum of the impacts on a mesh, or between grains of two types, since the beginning, and its file.
 #pragma once
 
 #include "engine/results/impact_bins.h"
@@ -17,6 +17,7 @@ class ImpactSpectrum {
  public:
   ImpactSpectrum() : bins_(kImpactBins) {}
 
+  void add(Real energy);    // of one impact
   // Adds the records of a step that are of this mesh.
   void add(const EnergyRecords &records, std::uint32_t mesh);
   // Adds kImpactBins bins, or none.
@@ -42,5 +43,14 @@ class ImpactSpectrum {
 
 // Writes the rows as CSV with a line of names, in a file that appears whole or not at all. Throws InputError that names it.
 void write_spectrum(const std::string &path, const ImpactSpectrum &spectrum);
+
+// The spectrum of the impacts between grains of two types, and the share of their energy that those of the first type take.
+struct TypesSpectrum {
+  int type_i, type_j;
+  Real share_i;
+  ImpactSpectrum spectrum;
+};
+// Writes the rows of each pair of types as write_spectrum() does.
+void write_spectra(const std::string &path, const std::vector<TypesSpectrum> &spectra);
 
 }    // namespace lsdcd

@@ -102,6 +102,28 @@ const std::vector<OutputRow> &energy_outputs()
   return all;
 }
 
+const std::vector<OutputRow> &impact_outputs()
+{
+  static const std::vector<OutputRow> all = {
+      {1, "impacts", "", "number of impacts since the beginning", ""},
+      {1, "impact_energy", "",
+       "their energy, the sum of m v^2/2 with the reduced mass and the speed along the normal",
+       "energy"}};
+  return all;
+}
+
+const std::vector<OutputRow> &impact_outputs_by_types()
+{
+  static const std::vector<OutputRow> all = {
+      {1, "type_i", "", "the lower one of the two types", ""},
+      {1, "type_j", "", "the other one", ""},
+      {1, "impacts", "", "number of impacts between grains of these types", ""},
+      {1, "impact_energy", "", "their energy", "energy"},
+      {1, "energy_i", "", "the share of it that grains of type_i take", "energy"},
+      {1, "energy_j", "", "the share of those of type_j", "energy"}};
+  return all;
+}
+
 const std::vector<OutputRow> &collide_outputs()
 {
   static const std::vector<OutputRow> all = {

@@ -43,6 +43,8 @@ const std::vector<OutputRow> &massflow_outputs_by_type();    // a row of its arr
 const std::vector<OutputRow> &insertion_outputs();           // the vector of fix insert/lsdcd
 const std::vector<OutputRow> &
 energy_outputs();    // the vector of compute lsdcd/energy, then its scalar
+const std::vector<OutputRow> &impact_outputs();             // the vector of compute lsdcd/impacts
+const std::vector<OutputRow> &impact_outputs_by_types();    // a row of its array
 const std::vector<OutputRow> &
 collide_outputs();    // the vector of compute lsdcd/collide, then its scalar
 const std::vector<OutputRow> &collide_outputs_by_body();    // a row of its array

@@ -11,7 +11,7 @@ import scene
 from facts import at_most, fact
 
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
-STYLES = {"Fix": {"insert/lsdcd", "massflow/lsdcd", "wall/lsdcd"}, "Compute": {"lsdcd/collide", "lsdcd/energy"}, "Region": {"mesh/lsdcd"}}
+STYLES = {"Fix": {"insert/lsdcd", "massflow/lsdcd", "wall/lsdcd"}, "Compute": {"lsdcd/collide", "lsdcd/energy", "lsdcd/impacts"}, "Region": {"mesh/lsdcd"}}
 
 
 @lmp.needs_host

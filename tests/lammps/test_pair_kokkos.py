@@ -14,7 +14,7 @@ import pytest
 import lmp
 import stl
 from facts import at_most, fact
-from test_pair_energy import CLOUD, CLOUD_HEAD, CLOUD_LAWS, books, same
+from test_pair_energy import CLOUD, CLOUD_HEAD, CLOUD_LAWS, OUTPUT, books, same
 from test_pair_granular import ACROSS, COLUMNS, DT, FULL, GRANULAR, IN_A_SLICE, SIDE, SLICES, changed_by_fix_set, dump, grains, ours, script, settings
 
 pytestmark = lmp.needs_host
@@ -284,6 +284,14 @@ def test_books(folder, law):
     told("")
     for neigh in LISTS:
         same(f"restarted with {neigh} lists", told(neigh, text=again), plain, 1e-9)
+
+
+@pytest.mark.skipif(lmp.DEVICE_MOVES, reason="once is enough")
+def test_impacts(folder):
+    """compute lsdcd/impacts is refused with what to write, which then serves."""
+    text = CLOUD_HEAD + CLOUD.replace(OUTPUT, "compute hits all lsdcd/impacts 1e-9\n").format(law=CLOUD_LAWS[1], dt=4e-5, run="run 10")
+    lmp.refused("impacts", text, folder, "write 'suffix off' before pair_style granular/lsdcd", host=True)
+    lmp.run_well(text.replace("pair_style", "suffix off\npair_style"), folder, host=True)
 
 
 @pytest.mark.parametrize("keeps", ("pairs", "wall"))

@@ -47,7 +47,7 @@ def test_plugin_host(folder):
     text = lmp.run_well(f"plugin load {PLUGIN}\nplugin list\n" + body +
                         f"clear\nplugin load {PLUGIN}\n" + body +
                         "undump moves\nplugin unload fix wall/lsdcd\n"
-                        "plugin unload fix massflow/lsdcd\nplugin unload fix insert/lsdcd\nplugin unload fix gravity/lsdcd\nplugin unload compute lsdcd/collide\nplugin unload compute lsdcd/energy\n"
+                        "plugin unload fix massflow/lsdcd\nplugin unload fix insert/lsdcd\nplugin unload fix gravity/lsdcd\nplugin unload compute lsdcd/collide\nplugin unload compute lsdcd/energy\nplugin unload compute lsdcd/impacts\n"
                         "plugin unload region mesh/lsdcd\nplugin unload pair granular/lsdcd\nplugin unload fix SPRINGS/LSDCD\n"
                         "plugin list\nrun 10\n", folder)
     # Newer hosts keep their plugins through clear.
@@ -63,7 +63,7 @@ def test_plugin_host(folder):
         (own / file.name.replace(PLUGIN.stem, "lsdcdplugin")).symlink_to(file)
     unload = "".join(f"plugin unload {style}/lsdcd\n" for style in
                      ("fix wall", "fix massflow", "fix insert", "fix gravity", "region mesh"))
-    unload += "plugin unload compute lsdcd/collide\nplugin unload compute lsdcd/energy\nplugin unload pair granular/lsdcd\nplugin unload fix SPRINGS/LSDCD\n"
+    unload += "plugin unload compute lsdcd/collide\nplugin unload compute lsdcd/energy\nplugin unload compute lsdcd/impacts\nplugin unload pair granular/lsdcd\nplugin unload fix SPRINGS/LSDCD\n"
     text = lmp.run_well("plugin load own/lsdcdplugin.so\n" + unload +
                         "shell cd own\nplugin load ./lsdcdplugin.so\nshell cd ..\n" + body, folder)
     fact("loaded by another relative path after it was unloaded",

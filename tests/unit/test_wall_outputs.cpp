@@ -60,6 +60,8 @@ struct Table {
 const Table kTables[] = {{"fix_massflow_lsdcd", massflow_outputs(), false},
                          {"fix_insert_lsdcd", insertion_outputs(), false},
                          {"compute_lsdcd_energy", energy_outputs(), true},
+                         {"compute_lsdcd_impacts", impact_outputs(), false},
+                         {"compute_lsdcd_impacts", impact_outputs_by_types(), false},
                          {"compute_lsdcd_collide", collide_outputs(), true},
                          {"compute_lsdcd_collide", collide_outputs_by_body(), false},
                          {"wall_output", contact_outputs(true), false},

@@ -4,7 +4,7 @@
 """The numbers of styles of LAMMPS beside fix wall/lsdcd, in their order: name, kind of unit, what they are. Written by make_names.py, from
 the pages of the styles."""
 
-# The last row of a compute is its scalar.
+# The last row of lsdcd/energy and lsdcd/collide is the scalar.
 STYLE_OUTPUTS: dict[str, list[tuple[str, str, str]]] = {
     "massflow/lsdcd": [
         ("forward", "", "number of atoms that passed forward"),
@@ -51,6 +51,10 @@ STYLE_OUTPUTS: dict[str, list[tuple[str, str, str]]] = {
         ("dissipated_power_plastic", "energy/time", "power that contacts between grains dissipate by yielding"),
         ("dissipated_plastic", "energy", "likewise energy since the beginning"),
         ("balance", "energy", "the scalar: 18 + 19 + 20 + 21 less 22, which keeps its value but for the remainders"),
+    ],
+    "lsdcd/impacts": [
+        ("impacts", "", "number of impacts since the beginning"),
+        ("impact_energy", "energy", "their energy, the sum of m v^2/2 with the reduced mass and the speed along the normal"),
     ],
     "lsdcd/collide": [
         ("pairs", "", "number of pairs, of all bodies"),

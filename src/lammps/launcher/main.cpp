@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "base/version.h"
 #include "input/collide_settings.h"
+#include "input/impacts_settings.h"
 #include "input/insert_settings.h"
 #include "input/massflow_settings.h"
 #include "input/pair_words.h"
@@ -68,7 +69,7 @@ static void show_help(int argc, char **argv)
       std::printf(
           "lmp-lsdcd %s: LAMMPS %d with fix wall/lsdcd, fix massflow/lsdcd, "
           "fix insert/lsdcd, fix gravity/lsdcd, pair_style granular/lsdcd, compute lsdcd/collide, "
-          "compute lsdcd/energy, region mesh/lsdcd and the "
+          "compute lsdcd/energy, compute lsdcd/impacts, region mesh/lsdcd and the "
           "plugin command\n\n%s\n"
           "%s\n  counts, weighs or deletes the spheres that pass a mesh\n\n"
           "%s\n  puts grains through a flat mesh or into a region, clear of the walls\n\n"
@@ -78,6 +79,7 @@ static void show_help(int argc, char **argv)
           "compute ID all lsdcd/energy\n  what contacts of pair_style granular/lsdcd dissipate, "
           "and "
           "the balance with the walls\n\n"
+          "%s\n  counts and weighs impacts between grains of pair_style granular/lsdcd\n\n"
           "%s\n  the inside of a closed mesh; regions of LAMMPS have the last four keywords, "
           "too\n\n"
           "plugin load FILES | unload STYLE NAME | list | clear\n"
@@ -85,7 +87,7 @@ static void show_help(int argc, char **argv)
           lsdcd::version(), LSDCD_HOST_VERSION, lsdcd::wall_help().c_str(),
           syntax_of(lsdcd::parse_massflow).c_str(), syntax_of(lsdcd::parse_insert).c_str(),
           lsdcd::pair_coeff_syntax().c_str(), syntax_of(lsdcd::parse_collide).c_str(),
-          syntax_of(lsdcd::parse_region).c_str());
+          syntax_of(lsdcd::parse_impacts).c_str(), syntax_of(lsdcd::parse_region).c_str());
       std::fflush(stdout);
       return;
     }
