@@ -24,6 +24,7 @@ fix_modify      out names out all
 fix             feed all insert/lsdcd mesh in.stl massrate 1
 fix_modify      feed names feed all
 compute         balls all lsdcd/energy names balls all
+compute         hits all lsdcd/impacts 0.05 impact_spectrum between_*.csv every 100 names hits all
 compute         hit all lsdcd/collide mesh body.stl names hit all
 dump            d all custom 100 grains.dump id type x y z vx vy vz radius
 run             100000

@@ -42,7 +42,8 @@ def elements_of_page(page):
 
 
 STYLES = [("f_w", "drum", "wall_output"), ("f_out", "out", "fix_massflow_lsdcd"), ("f_feed", "feed", "fix_insert_lsdcd"),
-          ("c_balls", "balls", "compute_lsdcd_energy"), ("c_hit", "hit", "compute_lsdcd_collide")]
+          ("c_balls", "balls", "compute_lsdcd_energy"), ("c_hits", "hits", "compute_lsdcd_impacts"),
+          ("c_hit", "hit", "compute_lsdcd_collide")]
 
 
 def numbers_with(folder, heads):
@@ -60,7 +61,7 @@ def fresh(folder, name):
 def test_names(folder, reference, prefix, page):
     """Each number of a style, by its element and by its variable, has the name, the meaning and the unit of its page."""
     table = elements_of_page(page)
-    fact("the page has a table", len(table) > 3, len(table))
+    fact("the page has a table", len(table) > 1, len(table))
     of_element = {f"{reference}[{element}]" if element else reference: row for element, *row in table}
     of_name = {f"v_{prefix}_{name}": row for row in of_element.values() for name in row[:1]}
     wanted = {**of_element, **of_name}
@@ -81,7 +82,7 @@ def test_names_of_one_mesh(folder):
 
 
 def test_elements_that_there_are_not(folder):
-    heads = ["f_w[78]", "f_w[0]", "f_out[9]", "f_out", "c_balls[25]", "f_none[1]", "v_drum_colour", "v_other"]
+    heads = ["f_w[78]", "f_w[0]", "f_out[9]", "f_out", "c_balls[25]", "c_hits[3]", "c_hits[2][1]", "f_none[1]", "v_drum_colour", "v_other"]
     numbers = numbers_with(fresh(folder, "none"), heads)
     for head in heads:
         fact(f"{head} has no name of LSDCD's", numbers[head]["owner"] == "", numbers[head])
@@ -322,6 +323,7 @@ def test_random_bytes(folder):
 @pytest.mark.parametrize("name, text, said", (
     ("mean.txt", "# Time-averaged data for fix mean\n# TimeStep v_drum_power\n100 1\n200 zero\n", "mean.txt:4: '200 zero' is no row of 2 numbers"),
     ("spectrum_4000.csv", "energy_from,energy_to,impacts,energy\n1,2,3\n", "spectrum_4000.csv:2: '1,2,3' is no row of 4 numbers"),
+    ("between_4000.csv", "type_i,type_j,energy_from,energy_to,impacts,energy,energy_i,energy_j\n1,2,3\n", "between_4000.csv:2: '1,2,3' is no row of 8 numbers"),
     ("out.txt", "# step time id type diameter x y z vx vy vz direction\n1 2\n", "out.txt:2: '1 2' is no row of 12 numbers"),
     ("wall_400.vtp", "<VTKFile>", "wall_400.vtp is not whole"),
     ("grains.dump", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z\n1 0 0 0\n", "the snapshot of step 0 in grains.dump is not whole")))
@@ -332,6 +334,19 @@ def test_what_is_left_out_is_told(folder, name, text, said):
     (at / name).write_text(text)
     notes = data_of(at)["notes"]
     fact(said, any(said in note for note in notes), notes)
+
+
+def test_impacts_between_grains(folder):
+    """The last file of compute lsdcd/impacts has a spectrum for each pair of types, beside those of meshes."""
+    at = fresh(folder, "between")
+    write_run(at)
+    head = "type_i,type_j,energy_from,energy_to,impacts,energy,energy_i,energy_j\n"
+    (at / "between_100.csv").write_text(head + "1,1,1,1.25,3,3.3,1.65,1.65\n")
+    (at / "between_900.csv").write_text(head + "1,1,1,1.25,4,4.4,2.2,2.2\n1,2,1.25,1.6,1,1.3,1,0.3\n1,2,1.6,2,2,3.5,2.5,1\n")
+    found = {of["name"]: of["rows"] for of in data_of(at)["spectra"]}
+    fact("of types 1 and 1", found.get("grains of types 1 and 1, to step 900") == [[1, 1.25, 4, 4.4]], found)
+    fact("of types 1 and 2", found.get("grains of types 1 and 2, to step 900") == [[1.25, 1.6, 1, 1.3], [1.6, 2, 2, 3.5]], found)
+    fact("those of the mesh are there, too", len(found) == 3, found)
 
 
 def command(*words, cwd=None):

@@ -267,11 +267,13 @@ def checks_of(log: Log, all_series: list[Series]) -> list[Check]:
 
 
 def spectra_of(folder: pathlib.Path, log: Log, notes: list[str]) -> list[dict[str, Any]]:
-    """The last spectrum of impacts of each mesh that has some."""
+    """The last spectrum of impacts of each mesh, and of grains of each pair of types, that has some."""
     latest: dict[str, tuple[float, pathlib.Path, str]] = {}
     names = {mesh.spectrum: mesh.title for mesh in log.meshes if mesh.spectrum}
+    if between := files.spectrum_of_grains(log):
+        names[between] = "grains"
     for path in files.files_in(folder):
-        if path.suffix != ".csv" or not files.starts_with(path, files.SPECTRUM):
+        if path.suffix != ".csv" or not any(files.starts_with(path, head) for head in (files.SPECTRUM, files.BETWEEN_GRAINS)):
             continue
         pattern = next((p for p in names if re.fullmatch(re.escape(pathlib.Path(p).name).replace(r"\*", r"\d+"), path.name)), "")
         group = pattern or re.sub(r"\d+", "*", path.name)
@@ -281,10 +283,11 @@ def spectra_of(folder: pathlib.Path, log: Log, notes: list[str]) -> list[dict[st
     found = []
     for step, path, name in latest.values():
         try:
-            rows = files.read_spectrum(path)
+            spectra = files.read_spectra(path)
         except InputError as error:
             notes.append(f"left out: {error}")
             continue
-        if rows:
-            found.append({"name": f"{name}, to step {step:g}" if "*" in str(path) or step else name, "file": path.name, "rows": rows})
+        for of, rows in spectra.items():
+            whole = f"{name} of {of}" if of else name
+            found.append({"name": f"{whole}, to step {step:g}" if "*" in str(path) or step else whole, "file": path.name, "rows": rows})
     return found

@@ -67,6 +67,7 @@ def elements_of(style: str) -> list[tuple[str, str, str]]:
 
 
 HAVE_SCALAR = ("wall/lsdcd", "lsdcd/energy", "lsdcd/collide")
+OTHER_ARRAYS = ("lsdcd/impacts", "lsdcd/collide")    # whose columns are not the elements of the vector
 
 
 @dataclass
@@ -343,7 +344,7 @@ def column_of(log: Log, head: str, depth: int = 0) -> Column:
     known = elements_of(words[0]) if words else []
     plain = re.sub(r"(/kk|/host|/device)+$", "", words[0]) if words else ""
     has_scalar = plain in HAVE_SCALAR
-    if not known or not numbers and not has_scalar:
+    if not known or not numbers and not has_scalar or len(numbers) == 2 and plain in OTHER_ARRAYS:
         return Column(head, head)
     if len(numbers) == 2:
         owner = f"{'type' if plain == 'massflow/lsdcd' else 'mesh'} {numbers[0]} of {owner}"
@@ -412,20 +413,33 @@ def read_averages(path: pathlib.Path) -> tuple[list[str], Array]:
 
 
 SPECTRUM = "energy_from,energy_to,impacts,energy"
+BETWEEN_GRAINS = f"type_i,type_j,{SPECTRUM},energy_i,energy_j"
 
 
-def read_spectrum(path: pathlib.Path) -> list[list[float]]:
-    """Rows of a file of impact_spectrum."""
+def read_spectra(path: pathlib.Path) -> dict[str, list[list[float]]]:
+    """Rows of a file of impact_spectrum, as SPECTRUM names them, by whose impacts they are: "" of a mesh, "types 1 and 2" of grains."""
     lines = whole_lines(path)
-    if lines[:1] != [SPECTRUM]:
-        raise InputError(f"{path.name}:1: the first line is not '{SPECTRUM}'")
-    rows = []
+    if lines[:1] not in ([SPECTRUM], [BETWEEN_GRAINS]):
+        raise InputError(f"{path.name}:1: the first line is neither '{SPECTRUM}' nor '{BETWEEN_GRAINS}'")
+    n = lines[0].count(",") + 1
+    found: dict[str, list[list[float]]] = {}
     for number, words in enumerate(csv.reader(lines[1:]), 2):
         row = _numbers(words)
-        if row is None or len(row) != 4:
-            raise InputError(f"{path.name}:{number}: '{','.join(words)[:60]}' is no row of 4 numbers")
-        rows.append(row)
-    return rows
+        if row is None or len(row) != n:
+            raise InputError(f"{path.name}:{number}: '{','.join(words)[:60]}' is no row of {n} numbers")
+        if lines[0] == SPECTRUM:
+            found.setdefault("", []).append(row)
+        else:
+            found.setdefault(f"types {row[0]:g} and {row[1]:g}", []).append(row[2:6])
+    return found
+
+
+def spectrum_of_grains(log: Log) -> str:
+    """The name of the file in which a compute lsdcd/impacts has its spectrum; empty: there is none."""
+    for words in log.styles.values():
+        if words[0] == "lsdcd/impacts" and "impact_spectrum" in words[:-1]:
+            return words[words.index("impact_spectrum") + 1]
+    return ""
 
 
 PASSAGES = "# step time id type diameter"

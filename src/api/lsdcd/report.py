@@ -444,7 +444,7 @@ What it reads of the folder, as far as it is there and whole:
   mesh_fields FILE.vtp    meshes, coloured by stress, wear, impacts, dissipated energy
   dump ... custom         grains: id type x y z vx vy vz radius
   fix ave/time ... file   means
-  impact_spectrum         how often meshes are hit, and how hard
+  impact_spectrum         how often meshes and grains are hit, and how hard
   massflow/lsdcd file     what has passed"""
 EXAMPLE = """Example:
   lsdcd report .
