@@ -2,10 +2,12 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Run in.mill, and draw where on the lifters and the shell balls hit, and how hard: impacts.png.
+"""Run in.mill, and draw where on the lifters and the shell balls hit, and how hard: impacts.png; and how often balls hit the mill and each other with
+which energy: spectra.png.
 
-Checks that energies of triangles add up to what the fix says.
+Checks that energies of triangles, and of bins, add up to what the fix and the compute say.
 """
+import csv
 import math
 import shutil
 import sys
@@ -61,6 +63,32 @@ def draw(found, path):
     print(path)
 
 
+def read_spectrum(path):
+    """Rows of a file of impact_spectrum, by name."""
+    with open(path, encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    return {name: np.array([float(row[name]) for row in rows]) for name in ("energy_from", "energy_to", "impacts", "energy")}
+
+
+def draw_spectra(of, seconds, path):
+    """Impacts per second, and their power, in bins of equal ratio. `of`: spectra by name."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, panels = plt.subplots(1, 2, figsize=(9, 3), layout="constrained")
+    for axes, (column, title) in zip(panels, (("impacts", "impacts a second"), ("energy", "their power, W"))):
+        for name, rows in of.items():
+            axes.stairs(rows[column] / seconds, np.append(rows["energy_from"], rows["energy_to"][-1]), label=name, linewidth=1.6)
+        axes.set_xscale("log")
+        axes.set_title(title, fontsize=13)
+        axes.set_xlabel("energy of an impact, J", fontsize=12)
+    panels[0].set_yscale("log")
+    panels[0].legend(loc="lower center")
+    figure.savefig(path, dpi=100)
+    print(path)
+
+
 def main():
     p = runs.options(__doc__, HERE)
     p.add_argument("--turns", type=float, default=2)
@@ -72,7 +100,12 @@ def main():
     for name, told in (("impact_energy", row["impact_energy"]), ("dissipated_energy", row["at_walls"])):
         if abs(math.fsum(fields[name]) - told) > 1e-10 * told:
             raise SystemExit(f"triangles have {math.fsum(fields[name])} J of {name}, and the mesh has {told} J")
+    spectra = {name: read_spectrum(a.work / file) for name, file in (("between balls", "balls.csv"), ("on the mill", "liner.csv"))}
+    for rows, told in zip(spectra.values(), (row["hit_energy"], row["impact_energy"])):
+        if abs(math.fsum(rows["energy"]) - told) > 1e-10 * told:
+            raise SystemExit(f"bins have {math.fsum(rows['energy'])} J of impacts, and {told} J are told")
     draw(strips(fields, row["seconds"]), a.work / "impacts.png")
+    draw_spectra(spectra, row["seconds"], a.work / "spectra.png")
 
 
 if __name__ == "__main__":
