@@ -7,7 +7,7 @@
 
 #include "contact/near_features.h"
 #include "geometry/feature_code.h"
-#include "shape/superellipsoid.h"
+#include "shape/placed_grain.h"
 #include "shape/triangle_minimum.h"
 #include "tree/triangle_tree.h"
 
@@ -19,16 +19,6 @@
 #include <vector>
 
 namespace lsdcd {
-
-// A grain in its place.
-struct PlacedGrain {
-  Superellipsoid shape;
-  Vec3 centre, row[3];    // rows of the matrix that turns its axes to where they are
-
-  Vec3 turned(const Vec3 &v) const { return {dot(row[0], v), dot(row[1], v), dot(row[2], v)}; }
-  Vec3 to_own(const Vec3 &v) const { return v.x * row[0] + v.y * row[1] + v.z * row[2]; }
-  Vec3 own_point(const Vec3 &x) const { return to_own(x - centre); }
-};
 
 // A contact of a grain that is no sphere, as the search finds it: a place of the mesh where the signed distance from the grain is a
 // local minimum below 0. ShapeSearch::nearest() returns the place where it is the least of all. GrainContact is the same contact as a

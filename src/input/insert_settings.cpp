@@ -19,8 +19,12 @@ constexpr int kAttemptsAtOnce = 1000;
 const char *const kInsertSyntax =
     "fix ID group insert/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move "
     "x y z] [matrix m11 m12 m13 tx m21 m22 m23 ty m31 m32 m33 tz] [weld tol] [depth D] | "
-    "region ID, with diam one D | range LO HI | poly N D1 F1 ... | mass N D1 F1 ..., dens RHO "
-    "| LO HI, [massrate R | numberrate R] [mass M | number N] [type T] [vel X Y Z | normal V] "
+    "region ID, with diam one D | range LO HI | poly N D1 F1 ... | mass N D1 F1 ..., or shape SX "
+    "SY "
+    "SZ [block N1 N2] [spread LO HI] [fraction F | massfraction F] [shape ...] [orient random | AX "
+    "AY "
+    "AZ DEGREES], dens RHO | LO HI, [massrate R | numberrate R] [mass M | number N] [type T] [vel "
+    "X Y Z | normal V] "
     "[jitter [gaussian] V | X Y Z] [temperature T] [wall all | none | ID] [attempts N] [every "
     "N] [seed N]";
 
@@ -58,6 +62,83 @@ void read_sizes(Tokens &w, GrainRecipe &grains)
     grains.sizes = sizes;
   else
     grains.set_mass_shares(sizes);
+}
+
+// Kinds of grains as they are read; `sum` is of their shares.
+struct ReadKinds {
+  std::vector<GrainKind> kinds;
+  int by_number = 0, by_mass = 0;    // how many have a share of that
+
+  void set(Tokens &w, GrainRecipe &grains) const;
+};
+
+void read_shape(Tokens &w, ReadKinds &read)
+{
+  w.set_context("shape",
+                "shape SX SY SZ [block N1 N2] [spread LO HI] [fraction F | massfraction F]");
+  Vec3 half;
+  for (int k = 0; k < 3; k++) half[k] = w.number("the length along an axis", kAboveZero) / 2;
+  GrainKind kind;
+  Real n1 = 2, n2 = 2;
+  std::vector<std::string> seen;
+  while (!w.done()) {
+    const std::string &word = w.peek();
+    const bool is_mass = word == "massfraction";
+    if (word != "block" && word != "spread" && word != "fraction" && !is_mass) break;
+    if (is_twice(word, seen)) w.fail("'" + word + "' is given twice");
+    const std::string option = w.take();
+    if (option == "block") {
+      n1 = w.number("N1");
+      n2 = w.number("N2");
+    } else if (option == "spread") {
+      kind.least = w.number("LO", kAboveZero);
+      kind.most = w.number("HI", kind.least);
+    } else {
+      kind.share = w.number("F", kAboveZero, 1);
+      (is_mass ? read.by_mass : read.by_number)++;
+    }
+  }
+  try {
+    kind.shape = make_superellipsoid(half, n1, n2);
+  } catch (const InputError &e) {
+    w.fail(e.what());
+  }
+  read.kinds.push_back(kind);
+}
+
+void ReadKinds::set(Tokens &w, GrainRecipe &grains) const
+{
+  w.set_context("shape",
+                "shape SX SY SZ [block N1 N2] [spread LO HI] [fraction F | massfraction F]");
+  const int n = static_cast<int>(kinds.size());
+  if (by_number > 0 && by_mass > 0)
+    w.fail(
+        "'fraction' is of the number of grains and 'massfraction' of their mass: give one of the "
+        "two to all shapes");
+  if (n > 1 && by_number + by_mass < n)
+    w.fail("there are " + std::to_string(n) + " shapes, and " +
+           std::to_string(n - by_number - by_mass) +
+           " of them without 'fraction F' or 'massfraction F'");
+  Real sum = 0;
+  for (const GrainKind &kind : kinds) sum += kind.share;
+  if (std::fabs(sum - 1) > 1e-3)
+    w.fail("the fractions add up to " + number_text(sum) + ", not to 1");
+  grains.set_kinds(kinds, by_mass > 0);
+}
+
+void read_orientation(Tokens &w, GrainRecipe &grains)
+{
+  w.set_context("orient", "orient random | AX AY AZ DEGREES");
+  grains.is_turned_at_random = !w.done() && w.peek() == "random";
+  if (grains.is_turned_at_random) {
+    w.take();
+    return;
+  }
+  Vec3 axis;
+  for (int k = 0; k < 3; k++) axis[k] = w.number("a component of the axis");
+  if (!(norm(axis) > 0))
+    w.fail("the axis is 0 0 0: give the direction about which grains are turned");
+  grains.turn = rotation_about((1 / norm(axis)) * axis, w.number("DEGREES") * kPi / 180);
 }
 
 void read_velocity(Tokens &w, InsertSettings &s)
@@ -112,6 +193,8 @@ bool read_word(const std::string &word, Tokens &w, InsertSettings &s)
     s.region = w.take();
   } else if (word == "diam") {
     read_sizes(w, s.plan.grains);
+  } else if (word == "orient") {
+    read_orientation(w, s.plan.grains);
   } else if (word == "dens") {
     w.set_context("dens", "dens RHO | LO HI");
     GrainRecipe &grains = s.plan.grains;
@@ -156,6 +239,24 @@ bool read_word(const std::string &word, Tokens &w, InsertSettings &s)
   return true;
 }
 
+// Throws InputError where masses leave the range of numbers.
+void check_masses(const Tokens &w, const GrainRecipe &grains)
+{
+  Real least = Grain{0, grains.smallest / 2, grains.density_lo}.mass();
+  Real most = Grain{0, grains.largest / 2, grains.density_hi}.mass();
+  for (const GrainKind &kind : grains.kinds) {
+    const auto mass = [&](Real factor, Real density) {
+      return volume(kind.shape) * factor * factor * factor * density;
+    };
+    least = std::min(least, mass(kind.least, grains.density_lo));
+    most = std::max(most, mass(kind.most, grains.density_hi));
+  }
+  if (!(least > 0) || !std::isfinite(most))
+    w.fail(std::string(grains.kinds.empty() ? "diam" : "shape") +
+           " and dens give the grains masses from " + number_text(least) + " to " +
+           number_text(most) + ": write both in the units of the script");
+}
+
 void check(Tokens &w, const InsertSettings &s)
 {
   w.set_context("fix insert/lsdcd", kInsertSyntax);
@@ -163,14 +264,9 @@ void check(Tokens &w, const InsertSettings &s)
   if (s.face.file.empty() == s.region.empty())
     w.fail(s.region.empty() ? "mesh FILE or region ID is missing"
                             : "give mesh FILE or region ID, not both");
-  if (s.plan.grains.largest <= 0) w.fail("diam is missing");
+  if (s.plan.grains.largest <= 0) w.fail("diam or shape is missing");
   if (s.plan.grains.density_hi <= 0) w.fail("dens is missing");
-  const GrainRecipe &grains = s.plan.grains;
-  const Real least = Grain{0, grains.smallest / 2, grains.density_lo}.mass();
-  const Real most = Grain{0, grains.largest / 2, grains.density_hi}.mass();
-  if (!(least > 0) || !std::isfinite(most))
-    w.fail("diam and dens give the grains masses from " + number_text(least) + " to " +
-           number_text(most) + ": write both in the units of the script");
+  check_masses(w, s.plan.grains);
   if (feed.kind == FeedSettings::at_once && feed.mass <= 0 && feed.number == 0)
     w.fail("the amount is missing: give massrate, numberrate, mass or number");
   if (feed.mass > 0 && feed.number > 0)
@@ -188,15 +284,32 @@ InsertSettings parse_insert(const std::vector<std::string> &tokens)
   InsertSettings settings;
   Tokens w(tokens);
   std::vector<std::string> seen;
+  ReadKinds kinds;
   while (!w.done()) {
     const std::string word = w.take();
     w.set_context("fix insert/lsdcd", kInsertSyntax);
-    if (word != "wall" && is_twice(word, seen)) w.fail("the keyword '" + word + "' is given twice");
-    if (!read_mesh_word(word, w, settings.face) && !read_word(word, w, settings))
+    const bool may_repeat = word == "wall" || word == "shape";
+    if (is_twice(word, seen) && !may_repeat) w.fail("the keyword '" + word + "' is given twice");
+    if (word == "shape")
+      read_shape(w, kinds);
+    else if (!read_mesh_word(word, w, settings.face) && !read_word(word, w, settings))
       w.fail("'" + word + "' is not a keyword");
   }
+  const auto tells = [&seen](const char *word) {
+    return std::find(seen.begin(), seen.end(), word) != seen.end();
+  };
+  if (tells("diam") && tells("shape")) {
+    w.set_context("fix insert/lsdcd", kInsertSyntax);
+    w.fail("diam is of spheres and shape of other grains: leave one out; a ball among them is a "
+           "shape with three equal lengths");
+  }
+  if (tells("orient") && !tells("shape")) {
+    w.set_context("fix insert/lsdcd", kInsertSyntax);
+    w.fail("orient turns grains with a shape: leave it out");
+  }
+  if (tells("shape")) kinds.set(w, settings.plan.grains);
   check(w, settings);
-  const bool tells_attempts = std::find(seen.begin(), seen.end(), "attempts") != seen.end();
+  const bool tells_attempts = tells("attempts");
   if (settings.plan.feed.kind == FeedSettings::at_once && !tells_attempts)
     settings.plan.attempts = kAttemptsAtOnce;
   return settings;

@@ -22,6 +22,7 @@ struct InsertSettings {
   Vec3 velocity = {0, 0, 0};
   bool has_temperature = false;
   Real temperature = 0;
+  bool has_shapes() const { return !plan.grains.kinds.empty(); }
   Real depth = 0;           // length; how far in front of the face grains are put
   bool all_walls = true;    // grains keep off these fixes, or off those named
   std::vector<std::string> walls;

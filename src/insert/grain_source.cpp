@@ -3,7 +3,7 @@
 
 #include "insert/grain_source.h"
 
-#include "insert/random_stream.h"
+#include <algorithm>
 
 namespace lsdcd {
 
@@ -17,7 +17,18 @@ Real cube(Real d)
   return d * d * d;
 }
 
+// Returns the mean of the cube of a number that is uniform between two.
+Real mean_cube(Real least, Real most)
+{
+  return (least + most) / 4 * (least * least + most * most);
+}
+
 }    // namespace
+
+Real GrainKind::mean_volume() const
+{
+  return volume(shape) * mean_cube(least, most);
+}
 
 // A grain of mass m is one of share / m grains.
 void GrainRecipe::set_mass_shares(const std::vector<Size> &by_mass)
@@ -28,12 +39,30 @@ void GrainRecipe::set_mass_shares(const std::vector<Size> &by_mass)
   for (Size &size : sizes) size.share /= sum;
 }
 
+void GrainRecipe::set_kinds(const std::vector<GrainKind> &of, bool is_by_mass)
+{
+  kinds = of;
+  sizes.clear();
+  Real sum = 0;
+  for (GrainKind &kind : kinds) sum += kind.share /= is_by_mass ? kind.mean_volume() : 1;
+  smallest = largest = 2 * kinds[0].least * kinds[0].shape.farthest;
+  for (GrainKind &kind : kinds) {
+    kind.share /= sum;
+    smallest = std::min(smallest, 2 * kind.least * kind.shape.farthest);
+    largest = std::max(largest, 2 * kind.most * kind.shape.farthest);
+  }
+}
+
 Real GrainRecipe::mean_mass() const
 {
+  if (!kinds.empty()) {
+    Real solid = 0;
+    for (const GrainKind &kind : kinds) solid += kind.share * kind.mean_volume();
+    return solid * (density_lo + density_hi) / 2;
+  }
   Real volume = 0;    // of the cube around it
   for (const Size &size : sizes) volume += size.share * cube(size.diameter);
-  if (sizes.empty())    // the mean of d^3
-    volume = (smallest + largest) / 4 * (smallest * smallest + largest * largest);
+  if (sizes.empty()) volume = mean_cube(smallest, largest);
   return kPi / 6 * volume * (density_lo + density_hi) / 2;
 }
 
@@ -47,20 +76,57 @@ Real GrainSource::diameter(Real at) const
   return recipe_.sizes.back().diameter;    // shares add up to a little less than 1
 }
 
+std::size_t GrainSource::kind(Real at) const
+{
+  std::size_t i = 0;
+  for (; i + 1 < recipe_.kinds.size() && at >= recipe_.kinds[i].share; i++)
+    at -= recipe_.kinds[i].share;
+  return i;
+}
+
 std::vector<Real> GrainSource::numbers() const
 {
   std::vector<Real> all = {static_cast<Real>(seed_), recipe_.smallest, recipe_.largest,
                            recipe_.density_lo, recipe_.density_hi};
   for (const GrainRecipe::Size &size : recipe_.sizes)
     all.insert(all.end(), {size.diameter, size.share});
+  if (!has_shapes()) return all;
+  const Quaternion &q = recipe_.turn;
+  all.insert(all.end(), {Real(recipe_.is_turned_at_random), q.w, q.v.x, q.v.y, q.v.z});
+  for (const GrainKind &k : recipe_.kinds)
+    all.insert(all.end(), {k.shape.half.x, k.shape.half.y, k.shape.half.z, k.shape.n1, k.shape.n2,
+                           k.least, k.most, k.share});
   return all;
 }
 
 Grain GrainSource::grain(std::int64_t number) const
 {
   RandomStream random({seed_, kSize, number});
-  const Real radius = diameter(random.uniform()) / 2;
-  return {number, radius, random.uniform(recipe_.density_lo, recipe_.density_hi)};
+  if (!has_shapes()) {
+    const Real radius = diameter(random.uniform()) / 2;
+    return {number, radius, random.uniform(recipe_.density_lo, recipe_.density_hi)};
+  }
+  const std::size_t i = kind(random.uniform());
+  const GrainKind &of = recipe_.kinds[i];
+  const Real radius = random.uniform(of.least, of.most) * of.shape.farthest;
+  return {number, radius, random.uniform(recipe_.density_lo, recipe_.density_hi), i,
+          volume(of.shape) / cube(of.shape.farthest)};
+}
+
+Superellipsoid GrainSource::shape(const Grain &grain) const
+{
+  const Superellipsoid &of = recipe_.kinds[grain.kind].shape;
+  const Real factor = grain.radius / of.farthest;
+  return {factor * of.half, of.n1, of.n2, factor * of.rho, grain.radius, factor * of.nearest};
+}
+
+Quaternion GrainSource::turn(RandomStream &random) const
+{
+  if (!recipe_.is_turned_at_random) return recipe_.turn;
+  const Real share = random.uniform(), a = random.uniform(0, 2 * kPi),
+             b = random.uniform(0, 2 * kPi);
+  const Real one = std::sqrt(1 - share), two = std::sqrt(share);
+  return {one * std::cos(a), {one * std::sin(a), two * std::cos(b), two * std::sin(b)}};
 }
 
 Vec3 GrainSource::velocity_jitter(std::int64_t number) const

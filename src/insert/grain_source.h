@@ -1,29 +1,50 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sizes, densities and velocities of grains, by their numbers.
+// Sizes, shapes, densities and velocities of grains, by their numbers.
 #pragma once
 
+#include "base/quaternion.h"
 #include "base/vec3.h"
+#include "insert/random_stream.h"
+#include "shape/superellipsoid.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace lsdcd {
 
-struct Grain {
-  std::int64_t number;    // from 0
-  Real radius, density;
+constexpr Real kBallVolume = 4.0 / 3 * kPi;    // over the cube of the radius
 
-  Real mass() const { return 4.0 / 3 * kPi * radius * radius * radius * density; }
+struct Grain {
+  std::int64_t number;        // from 0
+  Real radius, density;       // of a grain with a shape: the radius of the sphere around it
+  std::size_t kind = 0;       // index of GrainRecipe::kinds
+  Real bulk = kBallVolume;    // volume over the cube of the radius
+
+  Real mass() const { return bulk * radius * radius * radius * density; }
+};
+
+// A shape of grains that are no spheres. All lengths of a grain are those of the kind times a factor, which is uniform between two.
+struct GrainKind {
+  Superellipsoid shape;
+  Real least = 1, most = 1;    // the factor
+  Real share = 1;              // of all grains by number; shares add up to 1
+
+  // Returns the mean volume of its grains.
+  Real mean_volume() const;
 };
 
 struct GrainRecipe {
   struct Size {
     Real diameter, share;    // of all grains by number; shares add up to 1
   };
-  std::vector<Size> sizes;           // empty: uniform between the next two
-  Real smallest = 0, largest = 0;    // diameters
+  std::vector<Size> sizes;            // empty: uniform between the next two
+  Real smallest = 0, largest = 0;     // diameters, of the spheres around grains with a shape
+  std::vector<GrainKind> kinds;       // empty: spheres of these sizes
+  bool is_turned_at_random = true;    // grains with a shape; else they have the next turn
+  Quaternion turn;                    // from the axes of a grain to the box
   Real density_lo = 0, density_hi = 0;
   // Velocity: the largest change of each component, or its standard deviation.
   Vec3 jitter = {0, 0, 0};
@@ -31,7 +52,11 @@ struct GrainRecipe {
 
   // From shares of mass to those of number.
   void set_mass_shares(const std::vector<Size> &by_mass);
+  // Takes kinds whose shares are of the number of grains, or of their mass, and sets the diameters.
+  void set_kinds(const std::vector<GrainKind> &of, bool is_by_mass);
 
+  // Returns how many kinds grains have, 1 for spheres.
+  std::size_t n_kinds() const { return kinds.empty() ? 1 : kinds.size(); }
   Real mean_mass() const;
 };
 
@@ -49,8 +74,15 @@ class GrainSource {
   Grain grain(std::int64_t number) const;
   Vec3 velocity_jitter(std::int64_t number) const;
 
+  bool has_shapes() const { return !recipe_.kinds.empty(); }
+  // Returns the shape of a grain, of a source that has shapes.
+  Superellipsoid shape(const Grain &grain) const;
+  // Returns how a grain is turned: the same for all, or uniform among all rotations (Shoemake 1992).
+  Quaternion turn(RandomStream &random) const;
+
  private:
   Real diameter(Real at) const;
+  std::size_t kind(Real at) const;
 
   GrainRecipe recipe_;
   std::int64_t seed_;

@@ -87,36 +87,51 @@ bool Insertion::place_in_order(const std::vector<std::size_t> &order, std::int64
                                InsertionSite &site, Attempt &attempt) const
 {
   std::size_t passed_over = 0;
-  Real too_large = std::numeric_limits<Real>::infinity();
+  // Of each kind.
+  std::vector<Real> too_large(source_.recipe().n_kinds(), std::numeric_limits<Real>::infinity());
   for (std::size_t k = 0; k < owed_.size(); k++) {
     const std::size_t i = order.empty() ? k : order[k];
-    const Real radius = owed_[i].radius;
-    if (radius < too_large) {
+    const Grain &grain = owed_[i];
+    if (grain.radius < too_large[grain.kind]) {
       if (finds_place(i, step, site, attempt)) continue;
-      site.check_has_room(radius);
-      too_large = radius;
+      site.check_has_room(grain);
+      too_large[grain.kind] = grain.radius;
     }
     if (++passed_over > kMostPassedOver) return false;
   }
   return true;
 }
 
+PackedSphere Insertion::packed(const Grain &grain, const Vec3 &at, const Quaternion &turn,
+                               Real touch_radius) const
+{
+  if (!source_.has_shapes()) return {at, grain.radius};
+  return {at, grain.radius,
+          std::make_shared<const PackedShape>(
+              PackedShape{place_grain(source_.shape(grain), at, turn), touch_radius})};
+}
+
 bool Insertion::finds_place(std::size_t i, std::int64_t step, InsertionSite &site,
                             Attempt &attempt) const
 {
   const Grain &grain = owed_[i];
+  const Real touch = source_.has_shapes() ? site.touch_radius(grain) : 0;
   RandomStream random({plan_.seed, kPlaces, grain.number, step});
   for (int k = 0; k < plan_.attempts; k++) {
-    PackedSphere sphere = {{0, 0, 0}, grain.radius};
-    if (!site.draw(random, grain.radius, sphere.at)) {
+    Vec3 at = {0, 0, 0};
+    if (!site.draw(random, grain.radius, at)) {
       attempt.refused.no_place++;
-    } else if (attempt.packing.overlaps(sphere)) {
+      continue;
+    }
+    const Quaternion turn = source_.has_shapes() ? source_.turn(random) : Quaternion();
+    const PackedSphere here = packed(grain, at, turn, touch);
+    if (attempt.packing.overlaps(here)) {
       attempt.refused.grains++;
-    } else if (!site.is_clear_of_walls(sphere)) {
+    } else if (!site.is_clear_of_walls(here)) {
       attempt.refused.walls++;
     } else {
-      attempt.packing.add(sphere);
-      attempt.placed.push_back({i, sphere.at});
+      attempt.packing.add(here);
+      attempt.placed.push_back({i, at, turn});
       return true;
     }
   }

@@ -28,9 +28,11 @@ class InsertionSite {
   virtual ~InsertionSite() = default;
   virtual bool draw(RandomStream &random, Real radius, Vec3 &at) = 0;    // false: none is found
   virtual bool is_clear_of_walls(const PackedSphere &grain) = 0;
-  // Throws InputError where a grain of this radius would find no place without any other grain. Asked of
-  // each radius for which a step had none.
-  virtual void check_has_room(Real radius) = 0;
+  // Throws InputError where such a grain would find no place without any other grain. Asked of each grain for which
+  // a step had none.
+  virtual void check_has_room(const Grain &grain) = 0;
+  // Returns the radius of the sphere as which a grain with a shape touches others in this host; 0: it touches them by its shape.
+  virtual Real touch_radius(const Grain &) const { return 0; }
 };
 
 // All processes have the same state. In a step each calls draw_due(); one calls place(), and all pass its result to
@@ -40,6 +42,7 @@ class Insertion {
   struct Placed {
     std::size_t index;    // of owed()
     Vec3 at;
+    Quaternion turn = {};    // of a grain with a shape, from its axes to the box
   };
   // Grains without a place are tried again 1, 2, 4 ... steps later, at most so many, for as long as none of them
   // finds one; and in each step in which another grain is due.
@@ -63,6 +66,9 @@ class Insertion {
   // drawn. Where a grain finds no place, those that are no smaller wait for the next try. `packing`: of what is there.
   std::vector<Placed> place(std::int64_t step, InsertionSite &site, const Packing &packing,
                             Refused &refused) const;
+  // Returns a grain as it fills its place.
+  PackedSphere packed(const Grain &grain, const Vec3 &at, const Quaternion &turn,
+                      Real touch_radius) const;
   void accept(std::int64_t step, const std::vector<Placed> &placed, const Refused &refused);
 
   // Before a run from this step, and where the timestep changes. Steps without it are counted as time.

@@ -3,6 +3,8 @@
 
 #include "insert/packing.h"
 
+#include "shape/are_apart.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,6 +20,23 @@ Real distance_sq(const Box &box, const Vec3 &x)
     sum += out * out;
   }
   return sum;
+}
+
+PlacedGrain placed(const PackedSphere &grain)
+{
+  if (!grain.shape) return place_ball(grain.at, grain.radius);
+  PlacedGrain at = grain.shape->grain;
+  at.centre = grain.at;
+  return at;
+}
+
+// Do two grains overlap of which the spheres do?
+bool shapes_overlap(const PackedSphere &a, const PackedSphere &b)
+{
+  if (!a.shape && !b.shape) return true;
+  const Real one = a.shape ? a.shape->touch : a.radius, two = b.shape ? b.shape->touch : b.radius;
+  if (one > 0 && two > 0 && norm_sq(a.at - b.at) < (one + two) * (one + two)) return true;
+  return !are_apart(placed(a), placed(b));
 }
 
 }    // namespace
@@ -45,7 +64,7 @@ std::vector<PackedSphere> images_in(const PackedSphere &sphere, const Box &zone,
         const Vec3 at =
             sphere.at + Real(i) * box.edge[0] + Real(j) * box.edge[1] + Real(k) * box.edge[2];
         if (distance_sq(zone, at) <= past * past * (1 + kRoom))
-          found.push_back({at, sphere.radius});
+          found.push_back({at, sphere.radius, sphere.shape});
       }
   return found;
 }
@@ -96,7 +115,8 @@ bool Packing::overlaps(const PackedSphere &grain) const
         const auto found = first_.find(cell(grain.at, i, j, k));
         for (int n = found == first_.end() ? kNone : found->second; n != kNone; n = next_[n]) {
           const Real sum = spheres_[n].radius + grain.radius;
-          if (norm_sq(spheres_[n].at - grain.at) < sum * sum) return true;
+          if (norm_sq(spheres_[n].at - grain.at) < sum * sum && shapes_overlap(spheres_[n], grain))
+            return true;
         }
       }
   return false;

@@ -1,20 +1,31 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Spheres where grains are put, and whether another one overlaps any of them.
+// Grains where others are put, and whether another one overlaps any of them.
 #pragma once
 
 #include "box/periodic_box.h"
+#include "shape/placed_grain.h"
 
 #include <cstdint>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
 namespace lsdcd {
 
+// What a grain that is no sphere is beside the sphere around it.
+struct PackedShape {
+  PlacedGrain grain;    // its centre is that of the sphere
+  // Radius of the sphere as which it touches others in a host whose grains touch each other as spheres, in which such spheres, too, must
+  // not overlap; 0: grains touch each other by their shapes.
+  Real touch = 0;
+};
+
 struct PackedSphere {
   Vec3 at;
   Real radius;
+  std::shared_ptr<const PackedShape> shape = nullptr;    // null: the grain is this sphere
 };
 
 // The images of a sphere that may touch a grain, up to `largest` in radius, whose centre is in `zone`. Without a
@@ -29,7 +40,7 @@ class Packing {
   Packing(const std::vector<PackedSphere> &there, const Box &zone, Real largest,
           const PeriodicBox &box);
 
-  // Exactly touching is no overlap.
+  // Exactly touching is no overlap of spheres.
   bool overlaps(const PackedSphere &grain) const;
   void add(const PackedSphere &grain);
 

@@ -17,6 +17,7 @@
 #include "lammps/mpi_mesh.h"
 #include "lammps/other_fixes.h"
 #include "lammps/restart_data.h"
+#include "shape/shapes_made.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -72,21 +73,29 @@ class LammpsSite : public lsdcd::InsertionSite {
   }
 
   // Beside walls that have never moved: others may yet make room.
-  void check_has_room(double radius) override
+  void check_has_room(const lsdcd::Grain &grain) override
   {
-    if (radius <= fix_.radius_with_room) return;
+    double &radius_with_room = fix_.radius_with_room[grain.kind];
+    if (grain.radius <= radius_with_room) return;
+    const lsdcd::GrainSource &source = fix_.insertion->source();
     lsdcd::RandomStream random({fix_.settings.plan.seed, kRoom});
     for (int k = 0; k < kTriesOfRoom; k++) {
-      PackedSphere grain = {{0, 0, 0}, radius};
-      if (!draw(random, radius, grain.at)) {
+      Vec3 at = {0, 0, 0};
+      if (!draw(random, grain.radius, at)) {
         k += kTries;
-      } else if (fix_.walls->is_clear_at_rest(grain, box_)) {
-        fix_.radius_with_room = radius;
+        continue;
+      }
+      const lsdcd::Quaternion turn =
+          source.has_shapes() ? source.turn(random) : lsdcd::Quaternion();
+      if (fix_.walls->is_clear_at_rest(fix_.insertion->packed(grain, at, turn, 0), box_)) {
+        radius_with_room = grain.radius;
         return;
       }
     }
-    throw lsdcd::InputError(fix_.no_room_text(radius, kTriesOfRoom));
+    throw lsdcd::InputError(fix_.no_room_text(grain, kTriesOfRoom));
   }
+
+  double touch_radius(const lsdcd::Grain &grain) const override { return fix_.touch_radius(grain); }
 
  private:
   static constexpr int kTries = 10000, kTriesOfRoom = 100000;
@@ -115,21 +124,15 @@ FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "insert/lsdcd"),
     variables(lmp, std::string("f_") + id)
 {
-  if (!atom->radius_flag || !atom->rmass_flag)
-    fatal("atoms need a radius and a mass each: use atom_style sphere");
-  const std::string shape = lsdcd::shape_of_atoms(*atom);
-  if (!shape.empty())
-    fatal("the atom style has " + shape +
-          ", and grains would have no shape: use atom_style sphere without them" +
-          (atom->ellipsoid_flag ? "; ellipsoids come by create_atoms, then set shape and density"
-                                : ""));
   if (domain->dimension == 2)
     fatal("the simulation has two dimensions: there is no insertion there");
   run_core([&] {
     settings = lsdcd::parse_insert(words_of(arg + 3, arg + narg));
+    check_atoms();
     if (settings.type > atom->ntypes)
       throw lsdcd::InputError("in 'type', there is no atom type " + std::to_string(settings.type) +
                               ": there are " + std::to_string(atom->ntypes));
+    if (settings.has_shapes()) shape_atoms = std::make_unique<ShapeAtoms>(lmp, id);
     insertion = std::make_unique<Insertion>(settings.plan, update->ntimestep, update->dt);
     walls = std::make_unique<lsdcd::WallClearance>();
     if (settings.region.empty())
@@ -153,6 +156,33 @@ FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
   global_freq = 1;
   dynamic_group_allow = 1;
   follow_schedule();
+}
+
+void FixInsertLsdcd::check_atoms() const
+{
+  const std::string shape = lsdcd::shape_of_atoms(*atom);
+  if (!shape.empty() && shape != lsdcd::kEllipsoids)
+    fatal("the atom style has " + shape +
+          ", and grains would have no shape: use atom_style sphere without them");
+  if (!settings.has_shapes()) {
+    if (!shape.empty())
+      fatal("the atom style has ellipsoids, and the spheres of 'diam' would have no shape: give "
+            "'shape SX SY SZ', with three equal lengths for balls, or use atom_style sphere");
+    if (!atom->radius_flag || !atom->rmass_flag)
+      fatal("atoms need a radius and a mass each: use atom_style sphere");
+    return;
+  }
+  if (shape.empty())
+    fatal("'shape' is given, and the atom style has no shapes: use atom_style ellipsoid, or 'diam' "
+          "for spheres");
+  const std::string why = ShapeAtoms::why_not(*atom);
+  if (!why.empty()) fatal(why);
+  if (std::string(style).find("/kk") != std::string::npos)
+    fatal("grains with a 'shape' come on a CPU alone: use insert/lsdcd without /kk");
+  for (const lsdcd::GrainKind &kind : settings.plan.grains.kinds)
+    if (!kind.shape.is_ellipsoid() && !ShapeAtoms::has_superellipsoids(*atom))
+      fatal("in 'shape', 'block' makes superellipsoids, which the atom style does not have: use "
+            "atom_style ellipsoid superellipsoid, of LAMMPS 30 Mar 2026 or later");
 }
 
 FixInsertLsdcd::~FixInsertLsdcd()
@@ -185,9 +215,10 @@ void FixInsertLsdcd::read_face()
   if (!outside.empty()) throw lsdcd::InputError(outside);
   const double radius = insertion->source().largest_radius();
   if (!face->has_room(radius))
-    throw lsdcd::InputError(
-        settings.face.file + ": no place on the face is " + number_text(radius) +
-        ", the largest radius, away from its edges: make the face wider, or its scale larger");
+    throw lsdcd::InputError(settings.face.file + ": no place on the face is " +
+                            number_text(radius) + ", the largest radius" +
+                            (shape_atoms ? " of spheres around grains" : "") +
+                            ", away from its edges: make the face wider, or its scale larger");
   velocity = settings.along_normal ? settings.speed * face->normal() : settings.velocity;
   log(lsdcd::counted(mesh.faces.size(), "triangle") + ", area " + number_text(face->area()) +
       ", normal " + lsdcd::vector_text(face->normal()));
@@ -265,7 +296,7 @@ void FixInsertLsdcd::init()
   }
   if (!missing.empty())
     fatal("in 'wall', there is no fix '" + missing[0] + "': give the ID of a fix wall/lsdcd");
-  radius_with_room = 0;
+  radius_with_room.assign(settings.plan.grains.n_kinds(), 0);
   if (!settings.region.empty()) find_region();
   lsdcd::MpiHost mpi(world);
   lsdcd::run_collectively(mpi, true, [&] { walls->follow(found, mpi.is_first()); });
@@ -318,17 +349,50 @@ double FixInsertLsdcd::largest_radius(int type) const
   return type == settings.type ? insertion->source().largest_radius() : 0;
 }
 
-// On the first process: of all processes, x, y, z and radius.
-std::vector<double> FixInsertLsdcd::gather_spheres(const lsdcd::Box &zone) const
+// Returns the radius of the sphere as which a grain with a shape touches others, of its volume; 0: grains touch each other by their shapes.
+double FixInsertLsdcd::touch_radius(const lsdcd::Grain &grain) const
+{
+  if (!atom->radius_flag || ShapeAtoms::has_superellipsoids(*atom)) return 0;
+  return grain.radius * std::cbrt(grain.bulk / lsdcd::kBallVolume);
+}
+
+// Numbers of a grain that is there: place and radius; of one that may have a shape also half-axes, exponents, turn and the radius of
+// PackedShape::touch.
+static constexpr std::size_t kSphereNumbers = 4, kShapeNumbers = 14;
+
+static PackedSphere packed_from(const double *n, bool may_have_shape, lsdcd::ShapesMade &shapes)
+{
+  const PackedSphere sphere = {{n[0], n[1], n[2]}, n[3]};
+  if (!may_have_shape || n[4] == 0) return sphere;
+  const lsdcd::Superellipsoid shape = shapes.get({n[4], n[5], n[6]}, n[7], n[8]);
+  const lsdcd::Quaternion turn = {n[9], {n[10], n[11], n[12]}};
+  return {sphere.at, sphere.radius,
+          std::make_shared<const lsdcd::PackedShape>(
+              lsdcd::PackedShape{lsdcd::place_grain(shape, sphere.at, turn), n[13]})};
+}
+
+// On the first process: of all processes.
+std::vector<double> FixInsertLsdcd::gather_grains(const lsdcd::Box &zone) const
 {
   const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
   const double largest = insertion->source().largest_radius();
+  lsdcd::HostSpheres with_shapes;
+  if (shape_atoms) shape_atoms->put(with_shapes);
+  const bool touch_as_spheres = atom->radius_flag && !ShapeAtoms::has_superellipsoids(*atom);
   std::vector<double> mine;
   for (int i = 0; i < atom->nlocal; i++) {
     const double *x = atom->x[i];
+    const double radius = shape_atoms ? with_shapes.radius[i] : atom->radius[i];
+    double touch = 0;
+    if (shape_atoms && touch_as_spheres) touch = atom->radius[i];
     for (const PackedSphere &s :
-         lsdcd::images_in({{x[0], x[1], x[2]}, atom->radius[i]}, zone, largest, box))
+         lsdcd::images_in({{x[0], x[1], x[2]}, std::max(radius, touch)}, zone, largest, box)) {
       mine.insert(mine.end(), {s.at.x, s.at.y, s.at.z, s.radius});
+      if (!shape_atoms) continue;
+      const lsdcd::GrainShape &row = with_shapes.shapes[i];
+      mine.insert(mine.end(), {row.half.x, row.half.y, row.half.z, row.n1, row.n2, row.turn.w,
+                               row.turn.v.x, row.turn.v.y, row.turn.v.z, touch});
+    }
   }
   return lsdcd::MpiHost(world).gather(mine);
 }
@@ -338,19 +402,23 @@ std::vector<Insertion::Placed> FixInsertLsdcd::choose(lsdcd::Refused &refused)
 {
   if (region) region->prematch();
   const lsdcd::Box around = zone();
-  const std::vector<double> near = gather_spheres(around);
+  const std::vector<double> near = gather_grains(around);
   std::vector<double> message;
   lsdcd::MpiHost mpi(world);
   lsdcd::run_collectively(mpi, mpi.is_first(), [&] {
     std::vector<PackedSphere> there;
-    for (std::size_t i = 0; i < near.size(); i += 4)
-      there.push_back({{near[i], near[i + 1], near[i + 2]}, near[i + 3]});
+    lsdcd::ShapesMade shapes;
+    const bool has_shapes = shape_atoms != nullptr;
+    const std::size_t width = has_shapes ? kShapeNumbers : kSphereNumbers;
+    for (std::size_t i = 0; i < near.size(); i += width)
+      there.push_back(packed_from(&near[i], has_shapes, shapes));
     const lsdcd::Packing packing(there, around, insertion->source().largest_radius(),
                                  lsdcd::host_box(*domain));
     walls->place(update->dt);
     LammpsSite site(*this);
     for (const Insertion::Placed &p : insertion->place(update->ntimestep, site, packing, refused))
-      message.insert(message.end(), {double(p.index), p.at.x, p.at.y, p.at.z});
+      message.insert(message.end(), {double(p.index), p.at.x, p.at.y, p.at.z, p.turn.w, p.turn.v.x,
+                                     p.turn.v.y, p.turn.v.z});
     for (const std::int64_t count : {refused.no_place, refused.grains, refused.walls})
       message.push_back(static_cast<double>(count));
   });
@@ -359,9 +427,11 @@ std::vector<Insertion::Placed> FixInsertLsdcd::choose(lsdcd::Refused &refused)
   message.resize(n);
   mpi.broadcast(message.data(), n * sizeof(double), 0);
   std::vector<Insertion::Placed> placed;
-  for (std::size_t i = 0; i + 4 < n; i += 4)
+  for (std::size_t i = 0; i + 8 < n; i += 8) {
+    const double *of = &message[i];
     placed.push_back(
-        {static_cast<std::size_t>(message[i]), {message[i + 1], message[i + 2], message[i + 3]}});
+        {static_cast<std::size_t>(of[0]), {of[1], of[2], of[3]}, {of[4], {of[5], of[6], of[7]}}});
+  }
   refused.no_place = static_cast<std::int64_t>(message[n - 3]);
   refused.grains = static_cast<std::int64_t>(message[n - 2]);
   refused.walls = static_cast<std::int64_t>(message[n - 1]);
@@ -516,8 +586,15 @@ void FixInsertLsdcd::create(const std::vector<Insertion::Placed> &placed)
     for (int d = 0; d < 3; d++) atom->v[m][d] = v[d];
     atom->mask[m] = 1 | groupbit;
     atom->image[m] = image;
-    atom->radius[m] = grain.radius;
     atom->rmass[m] = grain.mass();
+    if (shape_atoms) {
+      const lsdcd::Superellipsoid s = insertion->source().shape(grain);
+      shape_atoms->make(m, {s.half, s.n1, s.n2, placed[k].turn, inertia_over_mass(s)});
+      const double touch = touch_radius(grain);
+      if (atom->radius_flag) atom->radius[m] = touch > 0 ? touch : grain.radius;
+    } else {
+      atom->radius[m] = grain.radius;
+    }
     if (atom->tag_enable) atom->tag[m] = most + 1 + static_cast<tagint>(k);
     set_properties(m);
     modify->create_attribute(m);
@@ -552,14 +629,20 @@ std::string FixInsertLsdcd::late_text(const std::string &when, const lsdcd::Refu
          (late.number == 1 ? " is due and has" : " are due and have") + " found no place" + why;
 }
 
-std::string FixInsertLsdcd::no_room_text(double radius, int tries) const
+std::string FixInsertLsdcd::grain_text(const lsdcd::Grain &grain) const
+{
+  if (!shape_atoms) return "a grain of diameter " + number_text(2 * grain.radius);
+  return "a grain of shape " + lsdcd::vector_text(2 * insertion->source().shape(grain).half);
+}
+
+std::string FixInsertLsdcd::no_room_text(const lsdcd::Grain &grain, int tries) const
 {
   return "of " + std::to_string(tries) + " places " +
          (face ? "on " + settings.face.file : "in region " + settings.region) +
-         " none is clear of the walls for a grain of diameter " + number_text(2 * radius) +
+         " none is clear of the walls for " + grain_text(grain) +
          ", even without other grains, so it would hold back all that come after it: give "
-         "smaller grains in 'diam' or a larger " +
-         (face ? "mesh" : "region") +
+         "smaller grains in '" +
+         (shape_atoms ? "shape" : "diam") + "' or a larger " + (face ? "mesh" : "region") +
          ", move it away from the walls, or name by wall ID only the walls that grains must avoid";
 }
 

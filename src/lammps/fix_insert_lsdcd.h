@@ -12,6 +12,7 @@
 #include "insert/inlet_face.h"
 #include "lammps/output_variables.h"
 #include "lammps/own_messages.h"
+#include "lammps/shape_atoms.h"
 #include "lammps/wall_clearance.h"
 
 #include <memory>
@@ -61,8 +62,9 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   std::string radii_id;           // of the fix that tells radii to pair styles
   lsdcd::Refused refused_seen;    // before this run
   std::int64_t inserted_before = 0;
-  double radius_with_room =
-      0;                // of grains that have places beside the walls; on the first process
+  std::unique_ptr<ShapeAtoms> shape_atoms;    // null: grains are spheres
+  // Of each kind: the largest radius of grains that have places beside the walls. On the first process.
+  std::vector<double> radius_with_room;
   bool told = false;    // in this run, that grains have no place
   bool seed_warned = false;
   double schedule_dt = 0;
@@ -71,7 +73,9 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   void read_face();
   void find_region();
   lsdcd::Box zone() const;
-  std::vector<double> gather_spheres(const lsdcd::Box &) const;
+  void check_atoms() const;
+  double touch_radius(const lsdcd::Grain &) const;
+  std::vector<double> gather_grains(const lsdcd::Box &) const;
   std::vector<lsdcd::Insertion::Placed> choose(lsdcd::Refused &);
   void create(const std::vector<lsdcd::Insertion::Placed> &);
   bool owns(double *) const;
@@ -85,7 +89,8 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   void clear_levels(int n_new) const;
   std::string late_text(const std::string &, const lsdcd::Refused &) const;
   std::string inserted_text() const;
-  std::string no_room_text(double radius, int tries) const;
+  std::string grain_text(const lsdcd::Grain &) const;
+  std::string no_room_text(const lsdcd::Grain &, int tries) const;
   std::string remedy(const lsdcd::Refused &) const;
 };
 

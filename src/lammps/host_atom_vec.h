@@ -18,3 +18,35 @@ class AtomVec {
 };
 }    // namespace LAMMPS_NS
 #endif
+#if __has_include("atom_vec_ellipsoid.h")
+#include "atom_vec_ellipsoid.h"
+#else
+namespace LAMMPS_NS {
+// As above: it has had this function since 2010, and no data of the class is touched.
+class AtomVecEllipsoid {
+ public:
+  int unpack_exchange_bonus(int, double *);
+};
+}    // namespace LAMMPS_NS
+#endif
+
+namespace lsdcd {
+
+// Returns LAMMPS's ellipsoids; null: the atom style has none.
+inline LAMMPS_NS::AtomVecEllipsoid *host_ellipsoids(LAMMPS_NS::Atom &atom)
+{
+  LAMMPS_NS::AtomVec *style = atom.style_match("ellipsoid");
+#if __has_include("atom_vec_ellipsoid.h")
+  return dynamic_cast<LAMMPS_NS::AtomVecEllipsoid *>(style);
+#else
+  // AtomVec is a virtual base in some versions: the object begins where its table of functions says.
+  struct WithFunctions {
+    virtual ~WithFunctions() = default;
+  };
+  return style ? static_cast<LAMMPS_NS::AtomVecEllipsoid *>(
+                     dynamic_cast<void *>(reinterpret_cast<WithFunctions *>(style)))
+               : nullptr;
+#endif
+}
+
+}    // namespace lsdcd

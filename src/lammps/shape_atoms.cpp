@@ -4,6 +4,7 @@
 #include "lammps/shape_atoms.h"
 
 #include "base/input_error.h"
+#include "lammps/host_atom_vec.h"
 #include "lammps/host_fixes.h"
 #include "shape/superellipsoid.h"
 
@@ -11,12 +12,15 @@
 #include "modify.h"
 #include "update.h"
 
+#include <cstdint>
+#include <cstring>
+
 using namespace LAMMPS_NS;
 
 // The first LAMMPS with superellipsoids.
 #define HOST_HAS_SUPERELLIPSOIDS (LSDCD_HOST_VERSION >= 20260330)
 
-static bool has_superellipsoids([[maybe_unused]] const Atom &atom)
+bool ShapeAtoms::has_superellipsoids([[maybe_unused]] const Atom &atom)
 {
 #if HOST_HAS_SUPERELLIPSOIDS
   return atom.superellipsoid_flag;
@@ -65,6 +69,21 @@ LAMMPS_NS::Compute &ShapeAtoms::compute() const
     throw lsdcd::InputError("the compute " + id_ +
                             ", by which the wall reads shapes, was deleted: leave it there");
   return *found;
+}
+
+// By the numbers with which LAMMPS sends the atom to another process: half-axes, turn, and of a superellipsoid exponents and moments of
+// inertia.
+void ShapeAtoms::make(int m, const lsdcd::GrainShape &row)
+{
+  const lsdcd::Vec3 inertia = atom->rmass[m] * row.inertia_over_mass;
+  double numbers[] = {0,          row.half.x,   row.half.y,   row.half.z,
+                      row.turn.w, row.turn.v.x, row.turn.v.y, row.turn.v.z,
+                      row.n1,     row.n2,       inertia.x,    inertia.y,
+                      inertia.z};
+  const std::int64_t has_shape =
+      1;    // the first number is one of whole numbers, as ubuf of LAMMPS has it
+  std::memcpy(numbers, &has_shape, sizeof has_shape);
+  lsdcd::host_ellipsoids(*atom)->unpack_exchange_bonus(m, numbers);
 }
 
 void ShapeAtoms::put(lsdcd::HostSpheres &to)

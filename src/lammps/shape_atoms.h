@@ -26,6 +26,13 @@ class ShapeAtoms : protected Pointers {
   // Returns why the wall cannot have the atoms of this style, or an empty text.
   static std::string why_not(const Atom &atom);
 
+  // Returns whether atoms have exponents and a radius of the sphere around them; else, where they have a radius, it is of the sphere
+  // as which they touch each other.
+  static bool has_superellipsoids(const Atom &atom);
+
+  // Gives the local atom m, which has a mass and no shape yet, that of the row.
+  void make(int m, const lsdcd::GrainShape &row);
+
   // Gives rows, radii of spheres around the grains, and angular velocities to `to`, which has the spheres of the atom style, if it
   // has any. They hold until the next call.
   void put(lsdcd::HostSpheres &to);

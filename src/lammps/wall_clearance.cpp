@@ -64,31 +64,41 @@ void WallClearance::Surface::place(const std::vector<Vec3> &vertices, const Mesh
   bounds = placed_bounds(pose, {mesh.report.lo, mesh.report.hi});
 }
 
-bool WallClearance::Surface::is_within(const PackedSphere &sphere)
+// The sphere's centre is then less than its radius from the mesh; a grain with a shape has a point of the mesh in it.
+bool WallClearance::Surface::overlaps(const PackedSphere &grain)
 {
   if (!search) search = std::make_unique<Search>(mesh);
-  return search->tree.is_within(pose.to_mesh(sphere.at), sphere.radius, search->hint);
+  const Vec3 at = pose.to_mesh(grain.at);
+  if (!search->tree.is_within(at, grain.radius, search->hint)) return false;
+  if (!grain.shape) return true;
+  PlacedGrain placed = grain.shape->grain;
+  placed.centre = at;
+  Vec3 axis[3];
+  for (int k = 0; k < 3; k++)
+    axis[k] = pose.turn_to_mesh({placed.row[0][k], placed.row[1][k], placed.row[2][k]});
+  for (int k = 0; k < 3; k++) placed.row[k] = {axis[0][k], axis[1][k], axis[2][k]};
+  return search->of_shapes.nearest(placed).distance < 0;
 }
 
-bool WallClearance::is_clear(Surface &surface, const PackedSphere &sphere, const PeriodicBox &box)
+bool WallClearance::is_clear(Surface &surface, const PackedSphere &grain, const PeriodicBox &box)
 {
-  // Images of the wall about the sphere are those of the sphere about the wall.
-  for (const PackedSphere &image : images_in(sphere, surface.bounds, 0, box))
-    if (surface.is_within(image)) return false;
+  // Images of the wall about the grain are those of the grain about the wall.
+  for (const PackedSphere &image : images_in(grain, surface.bounds, 0, box))
+    if (surface.overlaps(image)) return false;
   return true;
 }
 
-bool WallClearance::is_clear(const PackedSphere &sphere, const PeriodicBox &box)
+bool WallClearance::is_clear(const PackedSphere &grain, const PeriodicBox &box)
 {
   for (Surface &surface : surfaces_)
-    if (!is_clear(surface, sphere, box)) return false;
+    if (!is_clear(surface, grain, box)) return false;
   return true;
 }
 
-bool WallClearance::is_clear_at_rest(const PackedSphere &sphere, const PeriodicBox &box)
+bool WallClearance::is_clear_at_rest(const PackedSphere &grain, const PeriodicBox &box)
 {
   for (Surface &surface : surfaces_)
-    if (!surface.moves && !is_clear(surface, sphere, box)) return false;
+    if (!surface.moves && !is_clear(surface, grain, box)) return false;
   return true;
 }
 

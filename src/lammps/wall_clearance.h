@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// How far a sphere is from the walls of the script, where they will be.
+// How far a grain is from the walls of the script, where they will be.
 #ifndef LSDCD_WALL_CLEARANCE_H
 #define LSDCD_WALL_CLEARANCE_H
 
 #include "box/periodic_box.h"
+#include "contact/shape_search.h"
 #include "insert/packing.h"
 #include "motion/motion.h"
 #include "tree/triangle_tree.h"
@@ -33,10 +34,10 @@ class WallClearance {
   // Puts the meshes where they are one timestep after their last one, in those shapes.
   void place(Real dt);
 
-  // Returns whether the sphere's centre is at least its radius from every mesh, and from its images.
-  bool is_clear(const PackedSphere &sphere, const PeriodicBox &box);
-  // Returns whether the sphere's centre is at least its radius from every mesh that has never moved, and from its images.
-  bool is_clear_at_rest(const PackedSphere &sphere, const PeriodicBox &box);
+  // Returns whether the grain overlaps no mesh and none of their images.
+  bool is_clear(const PackedSphere &grain, const PeriodicBox &box);
+  // Returns whether the grain overlaps no mesh that has never moved, and none of their images.
+  bool is_clear_at_rest(const PackedSphere &grain, const PeriodicBox &box);
 
   std::size_t bytes() const;
 
@@ -45,15 +46,16 @@ class WallClearance {
     struct Search {
       TriangleTable names;
       TriangleTree tree;
+      ShapeSearch of_shapes;
       std::uint32_t hint = kNoPrimitive;
 
-      explicit Search(const WeldedMesh &mesh) : names(mesh), tree(mesh, names) {}
+      explicit Search(const WeldedMesh &mesh) : names(mesh), tree(mesh, names), of_shapes(tree) {}
     };
     std::string fix;    // its ID
     std::size_t index;
     std::uint64_t fingerprint;
     WeldedMesh mesh;
-    std::unique_ptr<Search> search;    // null until a sphere is near, since vertices have moved
+    std::unique_ptr<Search> search;    // null until a grain is near, since vertices have moved
     Pose pose;
     bool moves = false;    // or was moved
     Box bounds;            // in that pose
@@ -66,10 +68,10 @@ class WallClearance {
     }
 
     void place(const std::vector<Vec3> &vertices, const MeshPart &part, Real dt);
-    bool is_within(const PackedSphere &sphere);
+    bool overlaps(const PackedSphere &grain);
   };
   bool has_all(bool has_meshes) const;
-  static bool is_clear(Surface &surface, const PackedSphere &sphere, const PeriodicBox &box);
+  static bool is_clear(Surface &surface, const PackedSphere &grain, const PeriodicBox &box);
 
   std::vector<LAMMPS_NS::FixWallLsdcd *> walls_;
   std::vector<std::vector<Vec3>> nodes_;    // of each mesh; empty: they do not move

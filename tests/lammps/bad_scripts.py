@@ -234,7 +234,7 @@ TABLES = [
         ("insert_mass_infinite", "region box diam range 1 1e110 dens 1 number 5", "masses from 0.523599 to inf"),
         ("insert_narrow_face", "mesh floor.stl diam one 50 dens 1 number 5",
          "Fix in insert/lsdcd", "floor.stl: no place on the face is 25, the largest radius, away from its edges"),
-        ("insert_no_law", "mesh floor.stl dens 1 number 5", "Fix in insert/lsdcd", "diam is missing"),
+        ("insert_no_law", "mesh floor.stl dens 1 number 5", "Fix in insert/lsdcd", "diam or shape is missing"),
         ("insert_no_place", "diam one 0.2 dens 1 number 5", "Fix in insert/lsdcd", "mesh FILE or region ID is missing"),
         ("insert_no_region", "region nowhere diam one 0.2 dens 1 number 5",
          "Fix in insert/lsdcd", "there is no region nowhere: define it before this fix"),
@@ -259,8 +259,8 @@ TABLES = [
 
     (changed(NO_RADIUS, ("atom_style      atomic", "atom_style      {}"), ("mass            1 1.0\nfix             move all nve\n", "")) +
      "fix             in all insert/lsdcd region box diam one 0.2 dens 1 number 5\n" + RUN, [
-        ("insert_shapes", "hybrid sphere ellipsoid", "Fix in insert/lsdcd: the atom style has ellipsoids, and grains would have no shape",
-         "ellipsoids come by create_atoms, then set shape and density"),
+        ("insert_shapes", "hybrid sphere ellipsoid", "Fix in insert/lsdcd: the atom style has ellipsoids, and the spheres of 'diam' would have no shape",
+         "give 'shape SX SY SZ', with three equal lengths for balls"),
     ]),
 
     # compute lsdcd/collide

@@ -392,6 +392,121 @@ def test_debt(folder):
          len(whole) < 40, str(len(whole)))
 
 
+def rotation(q):
+    """Matrix of a quaternion w x y z, whose columns are the axes of the grain."""
+    w, x, y, z = q
+    return numpy.array([[1 - 2*(y*y + z*z), 2*(x*y - z*w), 2*(x*z + y*w)], [2*(x*y + z*w), 1 - 2*(x*x + z*z), 2*(y*z - x*w)],
+                        [2*(x*z - y*w), 2*(y*z + x*w), 1 - 2*(x*x + y*y)]])
+
+
+def least_gap(grains):
+    """Of ellipsoids, rows of half-axes, quaternion and centre: the least distance of two, from below. Between two grains that do not
+    overlap is a plane; n.(difference of the centres) - h(n) - h(n), with h(n) = |A n| the support function, says how far they are off
+    it. Steps go towards the nearest difference of their points (Gilbert 1966)."""
+    half, at = grains[:, :3], grains[:, 7:10]
+    turn = numpy.array([rotation(q) for q in grains[:, 3:7]])
+    square = numpy.einsum("nik,nk,njk->nij", turn, half**2, turn)    # h(n)^2 = n.square n
+    reach, cells = 2 * half.max(), {}
+    for i, key in enumerate(map(tuple, numpy.floor(at / reach).astype(int))):
+        cells.setdefault(key, []).append(i)
+    pairs = [(i, j) for key, here in cells.items() for dx in (-1, 0, 1) for dy in (-1, 0, 1) for dz in (-1, 0, 1)
+             for j in cells.get((key[0] + dx, key[1] + dy, key[2] + dz), ()) for i in here if i < j and
+             math.dist(at[i], at[j]) < max(half[i]) + max(half[j])]
+    a, b = numpy.array(pairs).T
+    between, least = at[b] - at[a], numpy.full(len(a), -numpy.inf)
+    nearest = between.copy()
+    left = numpy.arange(len(a))
+    for _ in range(20000):
+        n = nearest[left] / numpy.linalg.norm(nearest[left], axis=1)[:, None]
+        corner = between[left]
+        for of in (a, b):
+            across = numpy.einsum("nij,nj->ni", square[of[left]], n)
+            corner = corner - across / numpy.sqrt((n * across).sum(1))[:, None]
+        least[left] = numpy.maximum(least[left], (corner * n).sum(1))
+        side = corner - nearest[left]
+        nearest[left] += numpy.clip(-(nearest[left] * side).sum(1) / (side**2).sum(1), 0, 1)[:, None] * side
+        left = left[least[left] < -1e-7 * reach]
+        if not len(left):
+            break
+    return least.min() / reach, len(pairs)
+
+
+SHAPES = lmp.head("0 12 0 12 {}", "p p f", style="ellipsoid") + lmp.pairs("zero 0.5", 0.1) + \
+    "fix             move all nve/asphere\ntimestep        0.01\n"
+OF_SHAPES = "dump            d all custom {} grains id c_g[*] mass x y z vz\ndump_modify     d sort id format float %.17g\n"
+COMPUTE = "compute         g all property/atom shapex shapey shapez quatw quati quatj quatk\n"
+TABLETS = "shape 0.3 0.3 0.16 spread 0.8 1.2 massfraction 0.6 shape 0.5 0.2 0.2 massfraction 0.4"
+
+
+def shapes_of(dump):
+    """Rows of the last step: half-axes, quaternion, centre, mass, vz."""
+    return numpy.array([[*(x / 2 for x in g[:3]), *g[3:7], *g[8:11], g[7], g[11]] for g in last(dump).values()])
+
+
+@pytest.mark.skipif(lmp.ON_KOKKOS, reason="ellipsoids come on a CPU alone")
+def test_shapes(folder):
+    """Grains of two shapes rain through a flat region, at a rate of mass: the amount, their shapes, clear of each other, on
+    processes and over a restart."""
+    rate, n_steps = 40, 150 if lmp.QUICK else 600
+    text = SHAPES.format("-60 3") + "region          rain block 0 12 0 12 1 2\n{}" + COMPUTE + \
+        "fix             in all insert/lsdcd region rain " + TABLETS + f" dens 2 massrate {rate} vel 0 0 -5\n" + OF_SHAPES.format(n_steps)
+    out = lmp.run_well(text.format("") + f"thermo_style custom step f_in[1] f_in[2] f_in[3]\nrun {n_steps}\n", folder)
+    there = lmp.read_dump(folder / "grains")
+    grains = shapes_of(there)
+    rod = grains[:, 0] / grains[:, 1] > 2
+    volume = 4 / 3 * math.pi * grains[:, :3].prod(1)
+    at_most("masses are those of ellipsoids", abs(grains[:, 10] / (2 * volume) - 1).max(), 1e-12)
+    # A sum of 12 digits in the table, and of grains each of which waits for all of its mass.
+    behind = rate * n_steps * 0.01 - grains[:, 10].sum()
+    fact("what is in is the rate times the time to within a grain", -1e-9 < behind < grains[:, 10].max(), str(behind))
+    fact("none is late", lmp.read_thermo(out)[-1][3] == 0)
+    factor = grains[~rod, 0] / 0.15
+    fact("tablets have their proportions and sizes", abs(grains[~rod, 2] / grains[~rod, 0] - 0.16 / 0.3).max() < 1e-12 and
+         0.8 <= factor.min() < 0.81 and 1.19 < factor.max() <= 1.2)
+    # The numbers are binomial, with shares of the mass over the mean masses; the mean cube of the factor is (0.8 + 1.2) (0.8^2 + 1.2^2) / 4.
+    shares = numpy.array([0.6 / (0.3 * 0.3 * 0.16 * 1.04), 0.4 / (0.5 * 0.2 * 0.2)])
+    share, n = shares[1] / shares.sum(), len(grains)
+    at_most("shapes have their shares of the mass, in standard deviations", abs(rod.sum() - n * share) / math.sqrt(n * share * (1 - share)), 4.5)
+    gap, pairs = least_gap(grains)
+    fact("none overlaps another one", gap >= -1e-6 and pairs > 500, f"{gap} of {pairs} pairs, {n} grains")
+    lmp.run_well(text.format("") + f"run {n_steps}\n", folder, 4)
+    fact("the same grains, with the same IDs, on 4 ranks", lmp.read_dump(folder / "grains") == there)
+    lmp.run_well(text.format("") + f"run {n_steps // 3}\nwrite_restart shapes.restart\n", folder)
+    again = re.sub("region +box.*\n.*\n", "read_restart shapes.restart\n", text.format(""))
+    lmp.run_well(again + f"run {n_steps - n_steps // 3}\n", folder, 2)
+    fact("after a restart the same, to the last bit", last(lmp.read_dump(folder / "grains")) == last(there))
+
+
+@pytest.mark.skipif(lmp.ON_KOKKOS, reason="ellipsoids come on a CPU alone")
+def test_shapes_fill(folder):
+    """Tablets that are given one turn fill a box between walls: clear of the walls, nearer than the spheres around them."""
+    stl.write(folder / "cube.stl", stl.box((1, 1, 1), (3, 3, 3)))
+    text = SHAPES.format("0 12") + f"fix wall all wall/lsdcd {WALL} mesh cube.stl\nregion fill block 1 3 1 3 1 3\n" + COMPUTE + \
+        "fix in all insert/lsdcd region fill shape 0.6 0.6 0.32 orient 1 0 0 90 dens 1 number 25\n" + OF_SHAPES.format(1) + "run 1\n"
+    lmp.run_well(text, folder)
+    grains = shapes_of(lmp.read_dump(folder / "grains"))
+    # Their least axis is along y.
+    reach = numpy.array([0.3, 0.16, 0.3])
+    off = numpy.minimum(grains[:, 7:10] - 1, 3 - grains[:, 7:10]) - reach
+    fact("clear of the walls by their shape", len(grains) == 25 and -1e-9 < off.min() and off[:, 1].min() < 0.1, f"{len(grains)} {off.min(0)}")
+    at_most("turned as given", abs(abs(grains[:, 3:7] @ [math.sqrt(0.5), math.sqrt(0.5), 0, 0]) - 1).max(), 1e-12)
+    gap, pairs = least_gap(grains)
+    fact("clear of each other", gap >= -1e-6 and pairs > 15, f"{gap} {pairs}")
+
+
+@pytest.mark.skipif(lmp.ON_KOKKOS, reason="ellipsoids come on a CPU alone")
+def test_shapes_that_touch_as_spheres(folder):
+    """In a style that is also of spheres a grain has the diameter of the sphere of its volume, and is clear of others by that, too."""
+    text = SHAPES.format("0 12").replace("style      ellipsoid", "style      hybrid sphere ellipsoid") + "region fill block 1 3 1 3 1 3\n" + \
+        COMPUTE.replace("quatk", "quatk radius") + "fix in all insert/lsdcd region fill shape 0.6 0.6 0.32 dens 1 number 40\n" + \
+        "dump d all custom 1 grains id c_g[8] x y z\ndump_modify d format float %.17g\nrun 1\n"
+    lmp.run_well(text, folder)
+    grains = list(last(lmp.read_dump(folder / "grains")).values())
+    at_most("the radius", max(abs(g[0] - (0.3 * 0.3 * 0.16)**(1 / 3)) for g in grains), 1e-14)
+    near = min(math.dist(a[1:], b[1:]) for i, a in enumerate(grains) for b in grains[:i]) - 2 * grains[0][0]
+    fact("spheres do not overlap", len(grains) == 40 and near >= 0, str(near))
+
+
 STREAM = """\
 fix             move all nve/sphere
 pair_style      zero 0.3

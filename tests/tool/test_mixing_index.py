@@ -16,7 +16,8 @@ PLACES = [[c + 0.05 + 0.09 * n for c in cell] for cell in CELLS for n in range(1
 
 def dump(*snapshots, columns="id type x y z"):
     """Text of snapshots, rows of types in the order of PLACES."""
-    return "".join(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{len(kinds)}\nITEM: BOX BOUNDS ff ff ff\n0 2\n0 2\n0 2\nITEM: ATOMS {columns}\n" +
+    head = "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n0 2\n0 2\n0 2\nITEM: ATOMS " + columns + "\n"
+    return "".join(head.format(step, len(kinds)) +
                    "".join(f"{n + 1} {kind} {x} {y} {z}\n" for n, (kind, (x, y, z)) in enumerate(zip(kinds, PLACES)))
                    for step, kinds in enumerate(snapshots))
 

@@ -6,7 +6,9 @@
 #include "input/insert_settings.h"
 #include "insert/inlet_face.h"
 #include "insert/insertion.h"
+#include "shape/placed_grain.h"
 #include "support/says.h"
+#include "support/shape_oracle.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +16,10 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
+#include <memory>
 #include <random>
+#include <sstream>
 #include <vector>
 
 namespace lsdcd::test_insertion {
@@ -48,7 +53,7 @@ struct Cube : InsertionSite {
     return true;
   }
   bool is_clear_of_walls(const PackedSphere &grain) override { return grain.radius < too_large; }
-  void check_has_room(Real) override {}
+  void check_has_room(const Grain &) override {}
   Real too_large = 1e9;    // radius
   Box zone() const { return {{0, 0, 0}, {side, side, side}}; }
 };
@@ -70,7 +75,7 @@ struct Feed : Insertion {
     Packing packing(there, site.zone(), source().largest_radius(), PeriodicBox());
     Refused refused;
     const std::vector<Placed> placed = place(step, site, packing, refused);
-    for (const Placed &p : placed) there.push_back({p.at, owed()[p.index].radius});
+    for (const Placed &p : placed) there.push_back(packed(owed()[p.index], p.at, p.turn, 0));
     accept(step, placed, refused);
     return placed.size();
   }
@@ -114,6 +119,198 @@ TEST(insertion, it_ends_with_the_number_or_mass_asked_for)
     EXPECT_EQ(insertion.next_step(), FeedSchedule::kNever);
     EXPECT_NEAR(insertion.inserted_mass(), 10, 1e-12);
   }
+}
+
+// Tablets of 3 by 3 by 1.6 with round outlines and flat sides.
+GrainKind tablet()
+{
+  return {make_superellipsoid({1.5, 1.5, 0.8}, 6, 2)};
+}
+
+GrainKind ellipsoid(const Vec3 &half, Real least, Real most, Real share)
+{
+  return {make_superellipsoid(half, 2, 2), least, most, share};
+}
+
+TEST(insertion, shapes_have_their_shares_of_the_number_or_of_the_mass)
+{
+  // Volumes of 4/3 pi (1, 6, 3), times the mean of a cube: 1, (2^4 - 1^4) / 4, 1.
+  const std::vector<GrainKind> kinds = {ellipsoid({1, 1, 1}, 1, 1, 0.2),
+                                        ellipsoid({1, 2, 3}, 1, 2, 0.5),
+                                        ellipsoid({3, 1, 1}, 1, 1, 0.3)};
+  const Real mass[] = {1, 6 * 15 / 4.0, 3};
+  for (const bool is_by_mass : {false, true}) {
+    InsertionPlan plan = at_once(1);
+    plan.grains.set_kinds(kinds, is_by_mass);
+    Real sum = 0, mean = 0, share[3];
+    for (int k = 0; k < 3; k++) sum += share[k] = kinds[k].share / (is_by_mass ? mass[k] : 1);
+    for (int k = 0; k < 3; k++) mean += (share[k] /= sum) * mass[k];
+    // The density is 6 / pi.
+    EXPECT_NEAR(plan.grains.mean_mass() / 8, mean, 1e-12 * mean);
+    const GrainSource source(plan.grains, 7);
+    constexpr int kN = 20000;
+    Real number[3] = {}, all = 0;
+    for (int i = 0; i < kN; i++) {
+      const Grain grain = source.grain(i);
+      number[grain.kind]++;
+      all += grain.mass() / 8;
+      const Vec3 half = source.shape(grain).half;
+      EXPECT_NEAR(grain.mass() / 8, half.x * half.y * half.z, 1e-12 * half.x * half.y * half.z);
+    }
+    // Five standard deviations; no mass is above 48.
+    for (int k = 0; k < 3; k++)
+      EXPECT_NEAR(number[k], kN * share[k], 5 * std::sqrt(kN * share[k] * (1 - share[k]))) << k;
+    EXPECT_NEAR(all / kN, mean, 5 * std::sqrt(48 * mean / kN));
+  }
+}
+
+TEST(insertion, turns_are_uniform_among_all_rotations)
+{
+  InsertionPlan plan = at_once(1);
+  plan.grains.set_kinds({tablet()}, false);
+  const GrainSource source(plan.grains, 5);
+  RandomStream random({1});
+  constexpr int kN = 20000;
+  // Of each axis, the mean of a component has the variance 1/3, of two the mean square 1/3 and that the variance 4/45. The angle of
+  // a rotation has the density (1 - cos) / pi, so its cosine the mean -1/2 and the variance 1/4.
+  Real sum[3][3] = {}, square[3][3] = {}, cosine = 0;
+  for (int i = 0; i < kN; i++) {
+    const Quaternion q = source.turn(random);
+    Vec3 row[3];
+    rows_of(q, row);
+    cosine += (row[0].x + row[1].y + row[2].z - 1) / 2;
+    for (int k = 0; k < 3; k++)
+      for (int l = 0; l < 3; l++) {
+        sum[k][l] += row[k][l];
+        square[k][l] += row[k][l] * row[k][l];
+      }
+  }
+  for (int k = 0; k < 3; k++)
+    for (int l = 0; l < 3; l++) {
+      EXPECT_NEAR(sum[k][l] / kN, 0, 5 * std::sqrt(1 / 3.0 / kN));
+      EXPECT_NEAR(square[k][l] / kN, 1 / 3.0, 5 * std::sqrt(4 / 45.0 / kN));
+    }
+  EXPECT_NEAR(cosine / kN, -0.5, 5 * std::sqrt(0.25 / kN));
+}
+
+// The least distance of two grains that do not overlap, from below: by a plane between them, found by steps towards the nearest
+// difference of their points (Gilbert 1966) with the support function in long double.
+Real apart_by(const ShapeOracle &oracle, const PackedSphere &a, const PackedSphere &b)
+{
+  const PlacedGrain *of[2] = {&a.shape->grain, &b.shape->grain};
+  const auto point = [&](int i, const Vec3 &n) {
+    const LongVec x = oracle.point(vec_cast<Long>(of[i]->to_own(n)));
+    return of[i]->turned({Real(x.x), Real(x.y), Real(x.z)});
+  };
+  Vec3 nearest = b.at - a.at;
+  Real best = -HUGE_VAL;
+  for (int i = 0; i < 3000 && best < -1e-7; i++) {
+    const Vec3 n = (1 / norm(nearest)) * nearest;
+    const Vec3 corner = b.at + point(1, -n) - a.at - point(0, n);
+    best = std::max(best, dot(corner, n));
+    const Vec3 side = corner - nearest;
+    nearest += std::clamp(-dot(nearest, side) / norm_sq(side), Real(0), Real(1)) * side;
+  }
+  return best;
+}
+
+TEST(insertion, tablets_come_clear_of_each_other_and_denser_than_the_spheres_around_them)
+{
+  InsertionPlan plan = at_once(3000);
+  plan.attempts = 1000;
+  plan.grains.set_kinds({tablet()}, false);
+  Feed<> insertion(plan);
+  insertion.site.side = 30;
+  insertion.insert(1);
+  // Spheres that come one by one fill 0.38 at most.
+  const Real tablets = static_cast<Real>(insertion.there.size()) * volume(tablet().shape) / 27000;
+  const Real spheres =
+      0.38 * volume(tablet().shape) / (kBallVolume * std::pow(tablet().shape.farthest, 3));
+  EXPECT_GT(tablets, spheres);
+  const ShapeOracle oracle(tablet().shape);
+  const Real reach = 2 * tablet().shape.farthest;
+  int near = 0;
+  for (std::size_t i = 0; i < insertion.there.size(); i++)
+    for (std::size_t j = 0; j < i; j++) {
+      if (norm(insertion.there[i].at - insertion.there[j].at) >= reach) continue;
+      near++;
+      EXPECT_GE(apart_by(oracle, insertion.there[i], insertion.there[j]), -1e-6);
+    }
+  EXPECT_GT(near, 500);
+}
+
+TEST(insertion, a_tablet_keeps_clear_of_a_sphere_by_its_shape)
+{
+  const PackedSphere flat = {{0, 0, 0},
+                             tablet().shape.farthest,
+                             std::make_shared<const PackedShape>(
+                                 PackedShape{place_grain(tablet().shape, {0, 0, 0}, {}), 0})};
+  const Packing packing({flat}, {{-9, -9, -9}, {9, 9, 9}}, 2, PeriodicBox());
+  EXPECT_FALSE(packing.overlaps({{0, 0, 1.8001}, 1}));
+  EXPECT_TRUE(packing.overlaps({{0, 0, 1.7999}, 1}));
+  EXPECT_FALSE(packing.overlaps({{2.5001, 0, 0}, 1}));
+  EXPECT_TRUE(packing.overlaps({{2.4999, 0, 0}, 1}));
+}
+
+TEST(insertion, grains_that_touch_as_spheres_keep_clear_by_these_too)
+{
+  const auto at = [](Real z, Real touch) {
+    return PackedSphere{{0, 0, z},
+                        tablet().shape.farthest,
+                        std::make_shared<const PackedShape>(
+                            PackedShape{place_grain(tablet().shape, {0, 0, 0}, {}), touch})};
+  };
+  const auto overlap = [&](Real z, Real touch) {
+    return Packing({at(0, touch)}, {{-9, -9, -9}, {9, 9, 9}}, 2, PeriodicBox())
+        .overlaps(at(z, touch));
+  };
+  EXPECT_FALSE(overlap(1.7, 0));
+  EXPECT_TRUE(overlap(1.7, 1));
+  EXPECT_FALSE(overlap(2.01, 1));
+}
+
+TEST(insertion, after_a_restart_shapes_go_on_as_they_were)
+{
+  InsertionPlan plan = plan_of(FeedSettings::by_number, 1);
+  plan.grains.set_kinds({tablet(), ellipsoid({1, 2, 3}, 0.5, 1, 1)}, true);
+  Feed<> whole(plan), first(plan), second(plan, 5);
+  for (int step = 1; step <= 10; step++) whole.insert(step);
+  for (int step = 1; step <= 5; step++) first.insert(step);
+  const std::vector<Real> saved = first.state(5).numbers();
+  EXPECT_TRUE(second.restore(saved.data(), saved.size(), 5));
+  second.there = first.there;
+  for (int step = 6; step <= 10; step++) second.insert(step);
+  ASSERT_EQ(second.there.size(), 10U);
+  for (std::size_t i = 0; i < 10; i++) {
+    const PackedSphere &a = whole.there[i], &b = second.there[i];
+    EXPECT_TRUE(a.at == b.at && a.radius == b.radius &&
+                a.shape->grain.row[0] == b.shape->grain.row[0])
+        << i;
+  }
+  plan.grains.set_kinds({tablet()}, true);
+  Feed<> other(plan, 5);
+  EXPECT_FALSE(other.restore(saved.data(), saved.size(), 5));
+}
+
+TEST(insertion, words_of_shapes_that_make_no_grains_are_refused)
+{
+  const auto says = [](const char *words, const char *what) {
+    std::istringstream text(std::string("region a number 5 dens 1 ") + words);
+    const std::vector<std::string> all{std::istream_iterator<std::string>(text), {}};
+    EXPECT_TRUE(fails_with(what, [&] { parse_insert(all); })) << words;
+  };
+  says("shape 3 3 1.6 fraction 0.5", "the fractions add up to 0.5, not to 1");
+  says("shape 3 3 1.6 shape 1 1 1 fraction 1",
+       "there are 2 shapes, and 1 of them without 'fraction F'");
+  says("shape 3 3 1.6 fraction 0.5 shape 1 1 1 massfraction 0.5",
+       "give one of the two to all shapes");
+  says("shape 3 3 1.6 block 1 2", "an exponent of a shape is 1");
+  says("shape 3 3 1.6 spread 2 1", "HI = 1 is out of range");
+  says("shape 3 3 1.6 block 6 2 block 6 2", "'block' is given twice");
+  says("shape 3 3 1.6 diam one 1", "diam is of spheres and shape of other grains");
+  says("diam one 1 orient random", "orient turns grains with a shape");
+  says("shape 3 3 1.6 orient 0 0 0 30", "the axis is 0 0 0");
+  says("shape 3 3 1e-200", "a half-axis of a shape is 5e-201");
 }
 
 TEST(insertion, shares_of_mass_are_shares_of_number_over_the_cube)
@@ -359,7 +556,10 @@ TEST(insertion, so_many_as_may_be_passed_over_hold_back_all_that_come_after_them
 TEST(insertion, where_a_grain_has_no_place_it_asks_whether_there_is_room_for_its_radius)
 {
   struct Narrow : Cube {
-    void check_has_room(Real radius) override { throw InputError(radius == 0.5 ? "no room" : ""); }
+    void check_has_room(const Grain &grain) override
+    {
+      throw InputError(grain.radius == 0.5 ? "no room" : "");
+    }
   };
   Feed<Narrow> insertion(at_once(10)), late(at_once(10));
   EXPECT_EQ(insertion.insert(1), 10U);

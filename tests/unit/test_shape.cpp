@@ -4,6 +4,7 @@
 // Superellipsoids and the least signed distance of triangles from them, against closed forms and an oracle in long double
 // that knows the shape by its two defining formulas alone.
 //   LSDCD_SHAPE_PAIRS  pairs of shape and triangle, 2e4 unless given
+#include "shape/are_apart.h"
 #include "shape/least_mass.h"
 #include "shape/superellipsoid.h"
 #include "shape/triangle_minimum.h"
@@ -128,6 +129,37 @@ TEST(shape, has_the_support_volume_and_inertia_of_the_closed_forms)
   EXPECT_NEAR(inertia.x, 1.452347, 5e-7);
   EXPECT_NEAR(inertia.y, 2.925070, 5e-7);
   EXPECT_NEAR(inertia.z, 3.829081, 5e-7);
+}
+
+// Dirichlet's integral of x^(p - 1) y^(q - 1) over |x|^n + |y|^n <= 1, x, y >= 0.
+Long dirichlet(Long p, Long q, Long n)
+{
+  return std::tgamma(p / n) * std::tgamma(q / n) / std::tgamma(1 + (p + q) / n) / (n * n);
+}
+
+// A section at the height z is the one in the middle times s = (1 - |z/c|^n1)^(1/n1), its area s^2 and its moments of area s^4.
+TEST(shape, has_the_volume_and_inertia_of_its_sections)
+{
+  Random random(23);
+  for (int i = 0; i < 50; i++) {
+    const Superellipsoid s = make_superellipsoid(uniform(random, {1, 1, 1}, {5, 5, 5}),
+                                                 uniform(random, 2, 20), uniform(random, 2, 20));
+    const Long a = s.half.x, b = s.half.y, c = s.half.z, n1 = s.n1, n2 = s.n2;
+    // The integral of |z|^(p - 1) s^q over z is that of a Beta function.
+    const auto along = [&](Long p, Long q) {
+      return 2 * std::pow(c, p) * std::tgamma(p / n1) * std::tgamma(1 + q / n1) /
+             std::tgamma(1 + (p + q) / n1) / n1;
+    };
+    const Long area = 4 * a * b * dirichlet(1, 1, n2), all = area * along(1, 2);
+    const Long xx = 4 * a * a * a * b * dirichlet(3, 1, n2) * along(1, 4) / all,
+               yy = 4 * a * b * b * b * dirichlet(1, 3, n2) * along(1, 4) / all,
+               zz = area * along(3, 2) / all;
+    EXPECT_NEAR(volume(s) / Real(all), 1, 1e-12);
+    const Vec3 inertia = inertia_over_mass(s);
+    EXPECT_NEAR(inertia.x / Real(yy + zz), 1, 1e-12);
+    EXPECT_NEAR(inertia.y / Real(zz + xx), 1, 1e-12);
+    EXPECT_NEAR(inertia.z / Real(xx + yy), 1, 1e-12);
+  }
 }
 
 TEST(shape, touches_its_support_planes_at_points_of_its_surface)
@@ -311,6 +343,37 @@ TEST(shape, finds_the_point_of_its_surface_from_which_a_point_was_made)
       EXPECT_LT(norm(p.normal - n), 1e-12);
     }
   }
+}
+
+// One shape at the other one's plane with a normal n, so far from it: that is their distance, or how far one is in the other one, as
+// long as that is less than their radii of curvature.
+TEST(shape, is_apart_from_another_one_by_their_distance_along_a_common_normal)
+{
+  Random random(11);
+  constexpr int kN = 100;
+  int missed = 0;
+  for (int i = 0; i < kN; i++) {
+    const Superellipsoid shapes[2] = {random_shape(random, 20), random_shape(random, 20)};
+    const Vec3 n = random_unit(random);
+    PlacedGrain grains[2];
+    Vec3 point[2];
+    for (int k = 0; k < 2; k++) {
+      grains[k] = place_grain(shapes[k], {0, 0, 0},
+                              rotation_about(random_unit(random), uniform(random, 0, 3)));
+      const Vec3 own = grains[k].to_own(k == 0 ? n : -n);
+      const LongVec x = ShapeOracle(shapes[k]).point(vec_cast<Long>(own));
+      point[k] = grains[k].turned({Real(x.x), Real(x.y), Real(x.z)});
+    }
+    const auto are_apart_by = [&](Real distance) {
+      grains[1].centre = point[0] + distance * n - point[1];
+      return are_apart(grains[0], grains[1]);
+    };
+    // 1e-9 is above the rounding of points of 5 that are turned, and below the least radius of curvature, 1e-4.
+    for (const Real in : {1e-9, 1e-6}) EXPECT_FALSE(are_apart_by(-in)) << i;
+    for (const Real out : {1e-6, 1e-3}) missed += !are_apart_by(out);
+    EXPECT_TRUE(are_apart_by(2 * (shapes[0].farthest + shapes[1].farthest)));
+  }
+  EXPECT_LE(missed, 2);    // one in a thousand: in 200, 3 in one run of 900
 }
 
 TEST(shape, is_found_by_random_triangles_as_deep_as_the_oracle_says)
