@@ -46,8 +46,9 @@ std::string row_of(const Values &...values)
 template <class Model>
 std::string numbers_of(const Chosen<Model> &chosen)
 {
-  return chosen.is_on() ? ", " + row_of(chosen.numbers[0], chosen.numbers[1], chosen.numbers[2])
-                        : "";
+  if (!chosen.is_on()) return "";
+  const Real *const n = chosen.numbers;
+  return ", " + (n[3] == 0 ? row_of(n[0], n[1], n[2]) : row_of(n[0], n[1], n[2], n[3]));
 }
 
 // `modulus` is 3/4 k_normal; `for_shapes` and those that begin with `keeps` are the wall's.

@@ -121,6 +121,22 @@ std::vector<EffectCase> effect_cases()
   add("eepa", "granular eepa", "hertz", yielding(NormalModel::eepa, {1e5, 4e5, 10, 1.5, 2, 0}));
   add("lepa", "granular lepa", "granular hooke", yielding(NormalModel::lepa, {1e5, 4e5, 1e5, 0.1}));
   add("thornton", "granular thornton", "hertz", yielding(NormalModel::thornton, {7.5e4, 1e4}));
+  const auto cohesion = [](CohesionModel model, const std::array<Real, kMaxNumbers> &numbers) {
+    return [model, numbers](EngineSettings &s) {
+      s.law().cohesion = model;
+      std::copy(numbers.begin(), numbers.end(), s.law().cohesion.numbers);
+    };
+  };
+  add("cohesion capillary", "cohesion capillary", "granular hooke",
+      cohesion(CohesionModel::capillary, {1, 20, 20, 1e-6}));
+  add("cohesion capillary/share", "cohesion capillary/share", "granular hooke",
+      cohesion(CohesionModel::capillary_share, {1, 20, 20, 1e-5}));
+  add("cohesion constant", "cohesion constant", "granular hooke",
+      cohesion(CohesionModel::constant, {10, 0.01}));
+  add("cohesion constant/weight", "cohesion constant/weight", "granular hooke",
+      cohesion(CohesionModel::constant_weight, {1, 10, 0.01}));
+  add("cohesion linear", "cohesion linear", "granular hooke",
+      cohesion(CohesionModel::linear, {1e3, 0.01}));
   const auto damping = [](DampingModel d) {
     return [d](EngineSettings &s) { s.law().damping = d; };
   };

@@ -104,7 +104,13 @@ std::vector<const SubModel *> rows_beside_style(Family family)
 {
   std::vector<const SubModel *> rows = sub_models(family);
   const auto is_none = [](const SubModel *row) { return row->name == std::string("none"); };
-  rows.erase(std::remove_if(rows.begin(), rows.end(), is_none), rows.end());
+  rows.erase(std::remove_if(rows.begin(), rows.end(),
+                            [&](const SubModel *row) {
+                              return is_none(row) ||
+                                     (family == Family::cohesion &&
+                                      acts_beyond_touch(static_cast<CohesionModel>(row->model)));
+                            }),
+             rows.end());
   return rows;
 }
 
@@ -116,6 +122,13 @@ void read_beside_style(Tokens &w, LawOfTypes &of, Family family)
   for (const SubModel *row : rows) names.push_back(row->name);
   LawDraft draft;
   draft.law = of.law;
+  for (const SubModel *row : sub_models(family))
+    if (!w.done() && w.peek() == row->name && w.peek() != "none" &&
+        std::find(names.begin(), names.end(), w.peek()) == names.end())
+      w.fail("'" + w.peek() +
+             "' acts beyond touch, as the styles hooke, hooke/history and hertz/history do not: "
+             "write the sub-models of granular, as 'granular hooke ... cohesion " +
+             w.peek() + "' before mesh");
   const SubModel &row = *rows[w.choice(names)];
   of.given.push_back({&row, read_numbers(w, row, draft)});
   w.refuse_number();

@@ -5,6 +5,7 @@
 
 #include "base/input_words.h"
 #include "input/granular_words.h"
+#include "input/law_words.h"
 #include "input/material_words.h"
 #include "law/make_law.h"
 
@@ -92,6 +93,11 @@ void read_classic(Tokens &w, PairCoeff &coeff)
     const auto row = std::find_if(sub_models().begin(), sub_models().end(), is_it);
     if (row == sub_models().end()) w.fail("'" + model + "' is not a sub-model of " + word);
     w.set_context(word + " " + model, kSyntax);
+    const std::vector<const SubModel *> beside = rows_beside_style(family);
+    if (std::find(beside.begin(), beside.end(), &*row) == beside.end())
+      w.fail("it acts beyond touch, as the styles hooke, hooke/history and hertz/history do not: "
+             "write the sub-models of granular, as 'granular hooke ... cohesion " +
+             model + "'");
     coeff.sub_models.push_back({&*row, read_numbers(w, *row, draft)});
   }
 }

@@ -261,7 +261,7 @@ void PairGranularLsdcd::init_style()
           "Debian trixie or sid, or one built from source");
 #endif
   beyond_contact = std::any_of(numbers.begin(), numbers.end(),
-                               [](const lsdcd::ContactLaw &law) { return law.pull_off() > 0; });
+                               [](const lsdcd::ContactLaw &law) { return law.reach().acts(); });
   set_springs();
   constexpr int kTiled = 1;
   if (kept_width() > 0 && force->newton_pair && comm->style == kTiled)
@@ -299,14 +299,19 @@ double PairGranularLsdcd::longest_hold()
 }
 
 // A list by radii reaches beyond touch by the skin. With half of it grains that adhesion holds are in the list, also those that part in
-// the step in which it is made; the other half is for grains that grow, where they may. A list by types has the same for all grains of a
-// type, though the large ones alone reach so far.
+// the step in which it is made; the other half is for grains that grow, where they may. A pull that acts on what has not touched begins
+// where no half of the skin is left for motion. A list by types has the same for all grains of a type, though the large ones alone reach
+// so far.
 void PairGranularLsdcd::request_list()
 {
+  const bool from_afar =
+      std::any_of(numbers.begin(), numbers.end(), [](const lsdcd::ContactLaw &law) {
+        return law.reach().acts() && !law.reach().needs_touch();
+      });
   const bool may_grow = adapts || !changing.empty();
   lsdcd::request_half_list(*neighbor, this, instance_me,
                            longest_hold() == 0 ||
-                               (!may_grow && longest_hold() <= neighbor->skin / 2));
+                               (!may_grow && !from_afar && longest_hold() <= neighbor->skin / 2));
 }
 
 // LAMMPS's order of fixes is that in which they were made: the springs take the place that was kept for them.
@@ -461,7 +466,8 @@ double PairGranularLsdcd::reach(int i, int j, double radius, double other) const
 {
   if (!(radius > 0) || !(other > 0)) return 0;
   const double reduced = radius * other / (radius + other);
-  return radius + other + numbers[law_index(i, j)].pull_off() * std::cbrt(reduced);
+  return radius + other +
+         numbers[law_index(i, j)].reach().most(reduced, lsdcd::size_of_both(radius, other));
 }
 
 double PairGranularLsdcd::init_one(int i, int j)
@@ -488,10 +494,10 @@ double PairGranularLsdcd::atom2cut(int i)
 
 double PairGranularLsdcd::radii2cut(double radius, double other)
 {
-  double pull_off = 0;
-  for (const lsdcd::ContactLaw &law : numbers) pull_off = std::max(pull_off, law.pull_off());
+  lsdcd::LawReach reach;
+  for (const lsdcd::ContactLaw &law : numbers) reach = longest(reach, law.reach());
   const double sum = radius + other;
-  return sum > 0 ? sum + pull_off * std::cbrt(radius * other / sum) : 0;
+  return sum > 0 ? sum + reach.most(radius * other / sum, lsdcd::size_of_both(radius, other)) : 0;
 }
 
 // Lists are made for radii up to limits, and for those that atoms had. Half of the skin is for motion.

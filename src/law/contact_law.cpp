@@ -4,6 +4,7 @@
 #include "law/contact_law.h"
 
 #include "law/force_parts.h"
+#include "law/smallest_model.h"
 #include "law/sub_models.h"
 
 #include <cmath>
@@ -14,7 +15,7 @@ namespace lsdcd {
 
 bool ContactLaw::has_history() const
 {
-  if (is(NormalModel::jkr) || keeps_forces || keeps_touch) return true;
+  if (reach().acts() || keeps_forces || keeps_touch) return true;
   for (const SubModel *row : rows_of(*this))
     if (row->stored.what) return true;
   return false;
@@ -78,9 +79,14 @@ ContactLaw granular_law(NormalModel normal)
   return law;
 }
 
-Real ContactLaw::pull_off() const
+LawReach ContactLaw::reach() const
 {
-  return is(NormalModel::jkr) ? JkrNormal(modulus, surface_energy).pull_off : 0;
+  LawReach reach;
+  if (reaches()) return reaching_cohesion(*this).reach();
+  if (!is(NormalModel::jkr)) return reach;
+  reach.of = LawReach::Of::held;
+  reach.per_root = JkrNormal(modulus, surface_energy).pull_off;
+  return reach;
 }
 
 Real tsuji_damping(Real e)
@@ -99,7 +105,7 @@ Real restitution_damping(NormalModel normal, Real e)
 
 Real cutoff_of(const ContactLaw &law, Real radius)
 {
-  return cutoff_of(radius, law.pull_off());
+  return cutoff_of(radius, law.reach());
 }
 
 }    // namespace lsdcd

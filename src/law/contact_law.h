@@ -4,6 +4,7 @@
 // A contact law: one sub-model of each family and its numbers. sub_models.h has the table of all.
 #pragma once
 
+#include "law/reach.h"
 #include "law/submodels/cohesion.h"
 #include "law/submodels/damping.h"
 #include "law/submodels/heat.h"
@@ -15,7 +16,7 @@
 
 namespace lsdcd {
 
-constexpr int kMaxNumbers = 3;    // of a sub-model that may be left out
+constexpr int kMaxNumbers = 4;    // of a sub-model that may be left out
 
 // A sub-model that may be left out, and its numbers in the order of its row.
 template <class Model>
@@ -71,6 +72,8 @@ struct ContactLaw {
   bool is_classic() const { return damping == DampingModel::classic; }
   bool has_heat() const { return heat.is_on(); }
   bool is_adhesive() const { return facts_of(normal).is_adhesive; }
+  // Returns whether cohesion acts beyond touch.
+  bool reaches() const { return acts_beyond_touch(cohesion.model); }
   // Returns whether contacts yield, and keep how far.
   bool yields() const { return facts_of(normal).yields; }
   // Returns whether the tangential spring shrinks as the contact unloads.
@@ -102,9 +105,8 @@ struct ContactLaw {
   // Returns a number for restart files. It is equal for laws whose histories mean the same.
   int history_kind() const;
 
-  // Returns the distance beyond contact at which adhesion lets go of a sphere of radius 1. It grows with the cube root of
-  // the radius. 0: nothing acts beyond contact.
-  Real pull_off() const;
+  // Returns how far beyond touch the law acts.
+  LawReach reach() const;
 };
 
 // Returns the law of `hooke`, `hooke/history` or `hertz/history`, without numbers.

@@ -4,7 +4,8 @@
 // A contact law put together from sub-models at compile time. Every law has
 //   kHistory           does it store a ContactMemory<kExtra> per contact?
 //   kVectors, kScalars how many vectors and scalars that has beside the shear displacement
-//   kBeyondContact, pull_off  does it act beyond contact, and up to what distance at radius 1?
+//   kBeyondContact, gap(c)    does it act beyond contact, and across how long a gap?
+//   kReaches           is that by its cohesion, so that beyond touch nothing else acts?
 //   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
 //   kYields            does a contact keep how far it has yielded? Then the law has plastic_loss() and plastic_loss_at_end()
 //   kWholeArms         in a pair, is the arm of the tangential force the radius? Else it is less by half of the overlap.
@@ -43,6 +44,7 @@ struct ContactModel {
   static constexpr bool kHistory = Tangential::kHistory;
   static constexpr int kVectors = 0, kScalars = 0, kExtra = 0;
   static constexpr bool kBeyondContact = false, kContactTorque = false, kHeat = false;
+  static constexpr bool kReaches = false;
   static constexpr bool kYields = false, kWholeArms = true, kMidpoint = false;
 
   Normal elastic;
@@ -118,6 +120,7 @@ struct AddedModel {
   static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory ? 1 : 0, kScalars = 0, kExtra = 3 * kVectors;
   static constexpr bool kBeyondContact = false, kContactTorque = true, kHeat = false;
+  static constexpr bool kReaches = false;
   static constexpr bool kYields = false, kWholeArms = true, kMidpoint = false;
 
   Base base;
@@ -184,34 +187,30 @@ enum class GranularSet {
   midpoint,    // friction as in LIGGGHTS
   either,      // friction as in one of the two
   full,        // few with `mindlin_rescale`, rolling, twisting and heat as in LAMMPS
-  all          // those, and friction, rolling and cohesion as in LIGGGHTS
+  all,         // those, and friction, rolling and cohesion as in LIGGGHTS
+  reaching     // those, with cohesion that acts beyond touch in place of LIGGGHTS's
 };
-
-// Returns how many numbers a contact keeps for its normal force.
-template <class Normal>
-constexpr int scalars_of_normal()
-{
-  if constexpr (std::is_same_v<Normal, PlasticNormal>)
-    return Normal::kScalars;
-  else
-    return 0;
-}
 
 // The sub-models of `granular`, with the formulas of LAMMPS 4Jul2026.
 template <class Normal, bool kHistory_, GranularSet kSet>
 struct GranularModel {
-  static constexpr bool kAll = kSet == GranularSet::all, kFull = kAll || kSet == GranularSet::full;
+  static constexpr bool kReaches = kSet == GranularSet::reaching;
+  static constexpr bool kAll = kReaches || kSet == GranularSet::all,
+                        kFull = kAll || kSet == GranularSet::full;
   static constexpr bool kHistory = kHistory_;
-  static constexpr int kOfNormal = scalars_of_normal<Normal>();
+  static constexpr int kOfNormal = Normal::kScalars;    // numbers kept for the normal force
   static constexpr bool kYields = kOfNormal > 0;
   static_assert(!kYields || kHistory, "a contact keeps how far it has yielded");
   static constexpr int kVectors = kHistory && kFull ? 1 : 0, kScalars = 2 * kVectors + kOfNormal;
   static constexpr int kExtra = 3 * kVectors + kScalars;
-  static constexpr bool kBeyondContact = Normal::kBeyondContact;
+  static constexpr bool kBeyondContact = Normal::kBeyondContact || kReaches;
+  static_assert(!kReaches || (kHistory && !Normal::kBeyondContact),
+                "cohesion that acts beyond touch is alone there, and such contacts are kept");
   static constexpr bool kContactTorque = (kHistory && kFull) || kAll, kHeat = kFull;
   static constexpr bool kWholeArms = false, kMidpoint = kAll || kSet == GranularSet::midpoint ||
                                                         kSet == GranularSet::either;
   using Rolls = std::conditional_t<kAll, AnyRolling, SpringRolling>;
+  using Cohesion = std::conditional_t<kReaches, ReachingCohesion, SjkrCohesion>;
   static_assert(SpringRolling::kAllStore, "a law without memory has no contact torque");
 
   // Places in ContactMemory::extra.
@@ -223,7 +222,7 @@ struct GranularModel {
   Rolls rolling;
   SpringTwisting twisting;
   Conduction conduction;
-  SjkrCohesion cohesion;
+  Cohesion cohesion;
   bool uses_contact_radius;    // does anything, though the normal force may not?
   bool limit_damping;
 
@@ -239,9 +238,29 @@ struct GranularModel {
     return kSet == GranularSet::midpoint || (kMidpoint && tangential.at_midpoint);
   }
 
+  // Returns across how long a gap a contact acts; a law without kBeyondContact has no such function.
+  template <class C>
+  LSDCD_FN Real gap(const C &c) const
+  {
+    if constexpr (kReaches)
+      return cohesion.gap(c);
+    else
+      return elastic.pull_off > 0 ? elastic.pull_off * cube_root(c.radius) : 0;
+  }
+  // Returns whether only what has touched is held across the gap.
+  LSDCD_FN bool needs_touch() const
+  {
+    if constexpr (kReaches)
+      return cohesion.is_bridge();
+    else
+      return true;
+  }
+
   template <class C>
   LSDCD_FN FullForce evaluate(const C &c, ContactMemory<kExtra> &memory) const
   {
+    if constexpr (kReaches)
+      if (!(c.overlap > 0)) return across_gap(c, memory);
     const Real a =
         uses_contact_radius || elastic.uses_contact_radius() ? elastic.contact_radius(c) : 0;
     if constexpr (kYields) elastic.update(c, memory.extra + kYielded);
@@ -283,6 +302,8 @@ struct GranularModel {
   LSDCD_FN Real normal_energy(C c, Real overlap, ContactMemory<kExtra> memory) const
   {
     c.overlap = overlap;
+    if constexpr (kReaches)
+      if (!(overlap > 0)) return cohesion.energy(c);
     if constexpr (kYields) elastic.update(c, memory.extra + kYielded);
     Real held = energy_of_normal(c, elastic.contact_radius(c), memory);
     if constexpr (kAll)
@@ -297,10 +318,12 @@ struct GranularModel {
   // Returns the energy that a contact loses in a step by yielding and on its adhesive branch, with what it keeps before and after. A
   // contact that begins in overlap has yielded before.
   template <class C>
-  LSDCD_FN Real plastic_loss(const C &c, ContactMemory<kExtra> begun,
+  LSDCD_FN Real plastic_loss(C c, ContactMemory<kExtra> begun,
                              const ContactMemory<kExtra> &memory) const
   {
     const Real before = c.overlap + c.dt * c.v_normal;
+    if constexpr (kReaches)
+      if (c.overlap < 0) c.overlap = 0;
     Real *const own = begun.extra + kYielded;
     if (own[0] == 0 && before > 0) {
       C was = c;
@@ -334,11 +357,25 @@ struct GranularModel {
                                       const ContactMemory<kExtra> &memory) const
   {
     if (!tangential.spring) return {};
+    if constexpr (kReaches)
+      if (!(c.overlap > 0)) return {};
     const Real a = tangential.by_radius || tangential.rescale ? elastic.contact_radius(c) : 0;
     return tangential.part(c, a, begun, memory, kRadius, 0);    // the limit is for pairs alone
   }
 
  private:
+  // Returns the force across a gap. What a contact keeps for surfaces that touch is gone.
+  template <class C>
+  LSDCD_FN FullForce across_gap(const C &c, ContactMemory<kExtra> &memory) const
+  {
+    memory.shear = {0, 0, 0};
+    for (int k = 0; k < kYielded; k++) memory.extra[k] = 0;
+    elastic.forget(memory.extra + kYielded);
+    FullForce out = {};
+    out.normal = -cohesion.pull(c);
+    out.energy = cohesion.energy(c);
+    return out;
+  }
   // The following three functions are those of the normal model, which of a contact that yields reads what it keeps.
   template <class C, class Memory>
   LSDCD_FN Real normal_force(const C &c, [[maybe_unused]] Real a,
@@ -384,6 +421,12 @@ struct GranularModel {
   {
     static_assert(kHistory && (kAll || kSet == GranularSet::either),
                   "the energy balance is of the laws with either friction");
+    if constexpr (kReaches)
+      if (!(c.overlap > 0)) {    // springs have ended, see book_springs()
+        ForceParts parts = {};
+        parts.elastic = out.normal;
+        return parts;
+      }
     const Real a =
         uses_contact_radius || elastic.uses_contact_radius() ? elastic.contact_radius(c) : 0;
     Real pull = 0;

@@ -21,6 +21,15 @@ Contact contact_of(Real overlap, Real radius, Real mass)
   return c;
 }
 
+}    // namespace
+
+Real pulling_slope(const ContactLaw &law, const Contact &c)
+{
+  return law.reaches() ? reaching_cohesion(law).slope(c) : 0;
+}
+
+namespace {
+
 // With the tangential ones of a law without friction, too.
 ContactSlopes slopes_of(const ContactLaw &law, Real overlap, Real radius, Real mass)
 {
@@ -33,7 +42,8 @@ ContactSlopes slopes_of(const ContactLaw &law, Real overlap, Real radius, Real m
               {scale * law.k_tangent, scale * mass * law.gamma_tangent}};
     }
     const Real damping = GranularDamping{law.damping, law.eta}.coefficient(c, a, k * overlap);
-    return {{k, damping}, {granular_friction(law).stiffness(a), damping * law.xgammat}};
+    return {{std::max(k, pulling_slope(law, c)), damping},
+            {granular_friction(law).stiffness(a), damping * law.xgammat}};
   });
 }
 

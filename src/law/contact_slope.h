@@ -23,6 +23,9 @@ struct ContactSlopes {
 };
 ContactSlopes contact_slopes(const ContactLaw &law, Real overlap, Real radius, Real mass);
 
+// Returns the steepest slope of a cohesion that acts beyond touch, force/length; 0: the law has none.
+Real pulling_slope(const ContactLaw &law, const Contact &c);
+
 // Returns the stiffness of the spring that resists rolling, torque/angle; 0: there is none.
 Real rolling_stiffness(const ContactLaw &law, Real overlap, Real radius);
 

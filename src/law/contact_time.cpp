@@ -37,7 +37,9 @@ Real contact_time(const ContactLaw &law, Real mass, Real radius, Real ftm2v, Rea
 {
   const Contact c = shallow_contact(radius);
   const Real a = std::sqrt(c.overlap * radius);    // the contact's radius without adhesion
-  const Real k = with_normal(law, [&](const auto &normal) { return normal.tangent(c, a); });
+  const Real k =
+      std::max(with_normal(law, [&](const auto &normal) { return normal.tangent(c, a); }),
+               pulling_slope(law, c));
   const Real gamma = (law.is_classic() ? law.eta : 0) * (stiffens(law) ? a : 1);
   const Real omega_sq = ftm2v * k / mass, half = 0.5 * ftm2v * gamma;
   const Real damped_sq = omega_sq - half * half;

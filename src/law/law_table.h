@@ -27,12 +27,12 @@ struct LawTable {
   int of_mesh() const { return static_cast<int>(laws.size()) > kinds ? kinds : 0; }
 };
 
-// Returns the largest ContactLaw::pull_off() of a table.
-inline Real largest_pull_off(const LawTable &table)
+// Returns the longest ContactLaw::reach() of a table.
+inline LawReach longest_reach(const LawTable &table)
 {
-  Real largest = 0;
-  for (const ContactLaw &law : table.laws) largest = std::max(largest, law.pull_off());
-  return largest;
+  LawReach reach;
+  for (const ContactLaw &law : table.laws) reach = longest(reach, law.reach());
+  return reach;
 }
 
 // Returns the law of this mesh and kind, both from 0.
@@ -44,7 +44,7 @@ inline const ContactLaw &law_of(const LawTable &table, int mesh, int kind)
 // Returns how far from its centre a sphere can feel the wall.
 inline Real cutoff_of(const LawTable &table, Real radius)
 {
-  return cutoff_of(radius, largest_pull_off(table));
+  return cutoff_of(radius, longest_reach(table));
 }
 
 // The kind of each sphere, in kernels.

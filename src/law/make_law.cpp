@@ -80,6 +80,35 @@ void check_yielding(const LawDraft &d)
   }
 }
 
+// Returns a stiffness of loading that holds grains apart at any overlap; 0: the model has none that is so low at small overlaps.
+Real linear_stiffness(const ContactLaw &law)
+{
+  if (law.is(NormalModel::hooke)) return law.k_normal;
+  const bool is_linear = law.is(NormalModel::hysteretic) || law.is(NormalModel::lepa) ||
+                         (law.is(NormalModel::eepa) && law.plastic[3] == 1);
+  return is_linear ? law.plastic[0] : 0;
+}
+
+// Throws LawError where a cohesion that acts beyond touch does not go with the law.
+void check_cohesion(const LawDraft &d)
+{
+  const ContactLaw &law = d.law;
+  if (!law.reaches()) return;
+  if (law.is_classic())
+    throw LawError("cohesion", "a cohesion that acts beyond touch goes with the sub-models of "
+                               "granular, such as hooke and hertz, and not with the styles hooke, "
+                               "hooke/history and hertz/history: write 'granular hooke ...'");
+  if (law.is(NormalModel::jkr))
+    throw LawError("cohesion", "'jkr' acts beyond touch itself, and does so without a second pull: "
+                               "take another normal sub-model, such as hertz/material or dmt");
+  const Real k = linear_stiffness(law), pull = law.cohesion.numbers[0];
+  if (law.cohesion.model == CohesionModel::linear && k > 0 && pull >= k)
+    throw LawError("cohesion", "K = " + number_text(pull) + " of 'linear' is not below " +
+                                   number_text(k) +
+                                   ", the stiffness of loading, so that nothing holds the grains "
+                                   "apart: make it a small part of that");
+}
+
 template <class Model>
 void choose(Chosen<Model> &chosen, const SubModel &row, const std::vector<Real> &given)
 {
@@ -108,7 +137,13 @@ void add_sub_model(const SubModel &row, const std::vector<Real> &given, LawDraft
 
 bool can_derive(const SubModel &row, const LawDraft &draft)
 {
-  return row.family == Family::style || draft.young != 0;
+  return row.family == Family::style || row.family == Family::cohesion || draft.young != 0;
+}
+
+void finish_law(LawDraft &d)
+{
+  if (!d.law.is_classic()) return finish_granular(d);
+  check_cohesion(d);
 }
 
 void finish_granular(LawDraft &d)
@@ -123,6 +158,7 @@ void finish_granular(LawDraft &d)
     throw LawError("rolling", "epsd2 has the stiffness of the tangential sub-model: take one with "
                               "a history, or epsd");
   check_yielding(d);
+  check_cohesion(d);
   // The damping says what the second number of the normal sub-model is.
   law.eta = d.second;
   if (law.damping != DampingModel::stiffness) return;
@@ -157,7 +193,7 @@ ContactLaw make_law(const std::vector<GivenSubModel> &sub_models, bool limit_dam
   LawDraft draft = {granular_law(NormalModel::hooke)};
   for (const GivenSubModel &given : sub_models) add_sub_model(*given.row, given.numbers, draft);
   draft.law.limit_damping = limit_damping;
-  if (!draft.law.is_classic()) finish_granular(draft);
+  finish_law(draft);
   return draft.law;
 }
 

@@ -16,14 +16,16 @@ namespace lsdcd {
 struct LawError : InputError {
   LawError(const std::string &field, const std::string &text) : InputError(text), field(field) {}
   std::string
-      field;    // "normal", "damping", "limit_damping" or "rolling": which of them to change
+      field;    // "normal", "damping", "limit_damping", "rolling" or "cohesion": which of them to change
 };
 
 // Adds a sub-model to the draft. `given`: a number for each parameter, NaN where it is derived.
 void add_sub_model(const SubModel &row, const std::vector<Real> &given, LawDraft &draft);
-// Returns whether a parameter of this row can be derived from what the draft has: mindlin's kt needs E and nu.
+// Returns whether a parameter of this row can be derived from what the draft has: mindlin's kt needs E and nu,
+// and the second angle of a bridge nothing.
 bool can_derive(const SubModel &row, const LawDraft &draft);
-// Resolves what depends on several sub-models, once all are there. Throws LawError.
+// Resolve what depends on several sub-models, once all are there: of any law, and of one of `granular`. Throw LawError.
+void finish_law(LawDraft &draft);
 void finish_granular(LawDraft &draft);
 // Returns the row of the damping, which the normal sub-model, the first one, says where there is none.
 const SubModel &damping_of(const std::vector<GivenSubModel> &sub_models);

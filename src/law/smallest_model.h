@@ -7,6 +7,7 @@
 #include "law/contact_law.h"
 #include "law/contact_model.h"
 
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <stdexcept>
@@ -66,6 +67,35 @@ inline GranularFriction granular_friction(const ContactLaw &p)
           p.is_at_midpoint()};
 }
 
+// Returns the numbers of cohesion that acts beyond touch, as its formulas read them.
+inline ReachingCohesion reaching_cohesion(const ContactLaw &p)
+{
+  const CohesionModel model = p.cohesion.model;
+  const Real *const n = p.cohesion.numbers;
+  if (model == CohesionModel::constant || model == CohesionModel::linear)
+    return {model, n[0], 0, n[1], 0, 0};
+  if (model == CohesionModel::constant_weight) return {model, n[0] * n[1], 0, n[2], 0, 0};
+  // The force has the mean of the cosines of the two surfaces, and the rupture distance the mean of their angles: (1 + theta/2) (V^(1/3) +
+  // V^(2/3)/(10 R')) (Willett et al. 2000, equation 15).
+  const Real first = n[1] * kPi / 180, second = n[2] * kPi / 180;
+  const Real pull = 4 * kPi * n[0] * 0.5 * (std::cos(first) + std::cos(second));
+  const Real longer = 1 + 0.25 * (first + second), per_length = 1 / (20 * longer);
+  const bool shares = model == CohesionModel::capillary_share;
+  const Real volume = shares ? 4 * kPi / 3 * n[3] : n[3], length = longer * std::cbrt(volume);
+  return {model,     pull, std::sqrt(0.5 / volume), shares ? 0 : length, shares ? length : 0,
+          per_length};
+}
+
+// Returns the cohesion of a law, of the kind that its set has.
+template <class Cohesion>
+Cohesion cohesion_of(const ContactLaw &p)
+{
+  if constexpr (std::is_same_v<Cohesion, ReachingCohesion>)
+    return reaching_cohesion(p);
+  else
+    return {p.cohesion.numbers[0]};
+}
+
 // Returns the model of a law of `granular` with its normal sub-model.
 template <bool kHistory, GranularSet kSet, class Normal>
 GranularModel<Normal, kHistory, kSet> granular_model(const ContactLaw &p, const Normal &normal)
@@ -81,7 +111,7 @@ GranularModel<Normal, kHistory, kSet> granular_model(const ContactLaw &p, const 
           family_of<typename Model::Rolls>(p.rolling),
           {p.twisting.model, twisting[0], twisting[1], twisting[2]},
           {p.heat.model, p.heat.numbers[0]},
-          {p.cohesion.numbers[0]},
+          cohesion_of<typename Model::Cohesion>(p),
           uses_contact_radius,
           p.limit_damping};
 }
@@ -97,6 +127,23 @@ inline TouchingNormal touching_normal(const ContactLaw &p)
 inline JkrNormal jkr_normal(const ContactLaw &p)
 {
   return JkrNormal(p.modulus, p.surface_energy);
+}
+
+// Returns the normal sub-model of a law whose cohesion acts beyond touch, with its numbers.
+inline ReachingNormal reaching_normal(const ContactLaw &p)
+{
+  if (!ReachingNormal::has(p.normal))
+    throw std::logic_error(
+        "no law that acts across a gap has this normal sub-model: name it in plastic.h");
+  ReachingNormal normal = {p.normal, {}};
+  if (p.yields()) {
+    for (int k = 0; k < kPlasticNumbers; k++) normal.numbers[k] = p.plastic[k];
+    return normal;
+  }
+  const TouchingNormal touching = touching_normal(p);
+  normal.numbers[0] = touching.k;
+  normal.numbers[1] = touching.pull;
+  return normal;
 }
 
 // Returns a normal sub-model that yields, with its numbers.
@@ -160,12 +207,20 @@ auto with_plastic_law(const ContactLaw &p, const Make &make)
   return make(granular_model<true, GranularSet::all>(p, plastic_normal(p)));
 }
 
+// Calls make(law) with the law of `granular` whose cohesion acts beyond touch. There is one, with all sub-models.
+template <class Make>
+auto with_reaching_law(const ContactLaw &p, const Make &make)
+{
+  return make(granular_model<true, GranularSet::reaching>(p, reaching_normal(p)));
+}
+
 // Calls make(law) for any law that keeps_forces or keeps_touch. Few laws are compiled with energy balance and impacts: for `granular` one
 // without the sub-models that few scenes use, and one that has all.
 template <class Make>
 auto with_energy_law(const ContactLaw &p, const Make &make)
 {
   if (!p.is_classic()) {
+    if (p.reaches()) return with_reaching_law(p, make);
     if (p.yields()) return with_plastic_law(p, make);
     if (p.is(NormalModel::jkr))
       return make(granular_model<true, GranularSet::all>(p, jkr_normal(p)));

@@ -54,6 +54,21 @@ constexpr Parameter kTransfer = Parameter{"h", "power/(length^2 temperature)"}.t
 constexpr Parameter kCohesion =
     Parameter{"K", "energy/volume", 0, Tokens::kHuge, false, "cohesion_energy_density"}.to_power(0);
 
+// Of cohesion that acts beyond touch.
+constexpr Parameter kSurfaceTension = Parameter{"gamma", "force/length"}.to_power(1);
+constexpr Parameter kContactAngle =
+    Parameter{"theta", "degrees", 0, 90}.to_power(0).mixed_by(Mixing::first);
+constexpr Parameter kOtherAngle =
+    Parameter{"theta2", "degrees", 0, 90, true}.to_power(0).mixed_by(Mixing::second);
+constexpr Parameter kBridgeVolume = Parameter{"V", "volume", kAboveZero}.to_power(3);
+constexpr Parameter kBridgeShare = share("C", kAboveZero);
+constexpr Parameter kConstantPull = Parameter{"F0", "force"}.to_power(2);
+constexpr Parameter kWeightShare = share("f");
+constexpr Parameter kGravity = Parameter{"g", "force/mass"}.to_power(-1);
+constexpr Parameter kPullingSpring =
+    Parameter{"K", "force/length"}.to_power(1).mixed_by(Mixing::series);
+constexpr Parameter kPullingGap = Parameter{"delta", "length", kAboveZero}.to_power(1);
+
 // Of normal sub-models that yield.
 constexpr Parameter kLoading =
     Parameter{"k1", "force/length", kAboveZero}.to_power(1).mixed_by(Mixing::series);
@@ -169,6 +184,13 @@ void set_thornton(const Real *n, LawDraft &d)
   d.law.normal = NormalModel::thornton;
   d.law.plastic[0] = d.law.modulus;
   d.law.plastic[1] = n[3];
+}
+
+// The numbers of a bridge: without an angle of the other surface both have the same.
+template <CohesionModel model>
+void set_bridge(const Real *n, LawDraft &d)
+{
+  d.law.cohesion = {model, {n[0], n[1], std::isnan(n[2]) ? n[1] : n[2], n[3]}};
 }
 
 template <DampingModel model>
@@ -341,6 +363,18 @@ std::vector<SubModel> make_table()
 
       {F::cohesion, "sjkr", at(C::sjkr), {kCohesion}, copied, kNothing,
        "cohesion sjkr", "K times the area of contact (LIGGGHTS)"},
+      {F::cohesion, "capillary", at(C::capillary), {kSurfaceTension, kContactAngle, kOtherAngle, kBridgeVolume},
+       set_bridge<C::capillary>, kNothing, "cohesion capillary",
+       "liquid bridge of constant volume, from touch to its rupture (Willett et al. 2000)"},
+      {F::cohesion, "capillary/share", at(C::capillary_share), {kSurfaceTension, kContactAngle, kOtherAngle, kBridgeShare},
+       set_bridge<C::capillary_share>, kNothing, "cohesion capillary",
+       "capillary with V = C times the volume of the grains"},
+      {F::cohesion, "constant", at(C::constant), {kConstantPull, kPullingGap}, copied, kNothing,
+       "cohesion constant", "constant pull up to a gap delta (Rocky)"},
+      {F::cohesion, "constant/weight", at(C::constant_weight), {kWeightShare, kGravity, kPullingGap}, copied, kNothing,
+       "cohesion constant", "constant with F0 = f m g of the lighter grain (Rocky)"},
+      {F::cohesion, "linear", at(C::linear), {kPullingSpring, kPullingGap}, copied, kNothing,
+       "cohesion linear", "pull that grows by K from a gap delta on (Rocky)"},
   };
   // clang-format on
 }

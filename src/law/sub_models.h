@@ -19,7 +19,9 @@ enum class Mixing {
   geometric,    // sqrt(a b)
   series,       // 2 a b/(a + b): two springs one behind the other
   least,
-  equal    // two that differ cannot be mixed
+  equal,    // two that differ cannot be mixed
+  first,    // that of the first type
+  second    // the number before it, of the second type
 };
 
 // Powers of a length. In coarse graining grains are L times as large, and a number of theirs is multiplied by L to its power.

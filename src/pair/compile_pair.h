@@ -14,6 +14,7 @@ namespace lsdcd {
 PairLaw granular_pair(const ContactLaw &law);
 PairLaw granular_added_pair(const ContactLaw &law);
 PairLaw plastic_pair(const ContactLaw &law);
+PairLaw reaching_pair(const ContactLaw &law);
 PairLaw added_pair(const ContactLaw &law);
 PairLaw classic_pair(const ContactLaw &law);
 

@@ -284,11 +284,11 @@ bool evaluate_one(const LawBytes &bytes, const GrainPair &p, bool touched, const
 }
 
 template <class Law>
-PairLaw compiled_pair(const Law &law, Real pull_off)
+PairLaw compiled_pair(const Law &law, const LawReach &reach)
 {
   PairLaw out = {
-      LawBytes(law), pull_off, false, 0,      evaluate_one<Law>, evaluate_lanes<Law>, nullptr,
-      nullptr,       0,        {},    nullptr};
+      LawBytes(law), reach, false, 0,      evaluate_one<Law>, evaluate_lanes<Law>, nullptr,
+      nullptr,       0,     {},    nullptr};
   if constexpr (Law::kHeat) out.has_heat = law.has_heat();
   if constexpr (Law::kHistory) out.stored = stored_numbers(law);
 #if defined(LSDCD_WIDE_PAIRS)

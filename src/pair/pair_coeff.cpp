@@ -48,6 +48,9 @@ Real mixed(Real a, Real b, const Parameter &p, const std::string &types)
       throw InputError("the laws of types " + types + " cannot be mixed, as " + p.name + " is " +
                        number_text(a) + " and " + number_text(b) +
                        ": give the law of this pair of types by pair_coeff");
+    case Mixing::first:
+    case Mixing::second:    // `b` is the number before it
+      return p.mixing == Mixing::first ? a : b;
     case Mixing::geometric:
       break;
   }
@@ -57,8 +60,11 @@ Real mixed(Real a, Real b, const Parameter &p, const std::string &types)
 GivenSubModel mixed(const GivenSubModel &a, const GivenSubModel &b, const std::string &types)
 {
   GivenSubModel made = a;
-  for (std::size_t k = 0; k < made.numbers.size(); k++)
-    made.numbers[k] = mixed(a.numbers[k], b.numbers[k], a.row->parameters[k], types);
+  for (std::size_t k = 0; k < made.numbers.size(); k++) {
+    const Parameter &p = a.row->parameters[k];
+    made.numbers[k] =
+        mixed(a.numbers[k], b.numbers[p.mixing == Mixing::second ? k - 1 : k], p, types);
+  }
   if (!has_materials(*a.row)) return made;
   const Elastic of_a = {a.numbers[0], a.numbers[2]}, of_b = {b.numbers[0], b.numbers[2]};
   if (of_a.youngs_modulus == of_b.youngs_modulus && of_a.poissons_ratio == of_b.poissons_ratio)

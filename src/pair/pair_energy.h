@@ -94,11 +94,10 @@ LSDCD_FN void book_old_pair(const Law &law, const GrainPair &p, const PairNumber
     rows[EnergyRow::turned_springs] += energy_left(law, old, m.slip, rolling, twisting, p.dt);
     return;
   }
-  if constexpr (Law::kBeyondContact) {
+  if constexpr (Law::kBeyondContact && !Law::kReaches) {
     Contact c = {};
     c.radius = p.radius_i * p.radius_j / (p.radius_i + p.radius_j);
-    rows[EnergyRow::adhesion] +=
-        law.normal_energy(c, c.radius - cutoff_of(c.radius, law.elastic.pull_off));
+    rows[EnergyRow::adhesion] += law.normal_energy(c, c.radius - (c.radius + law.gap(c)));
   }
   book_springs_at_end(law, old, m.n, m.slip, rolling, twisting, p.dt, rows);
   if constexpr (Law::kYields) {
@@ -117,11 +116,12 @@ template <class Law>
 LSDCD_FN void begin_pair(const Law &law, const GrainPair &p, const PairContact &c, EnergyRows &rows)
 {
   constexpr Real kOutside = 1e-9;
-  const Real before = p.radius_i + p.radius_j - norm(p.offset - p.dt * p.velocity);
-  if (before > kOutside * c.radius)
+  const Real before = p.radius_i + p.radius_j - norm(p.offset - p.dt * p.velocity),
+             starts = starts_at(law, c);
+  if (before > starts + kOutside * c.radius)
     rows[EnergyRow::inserted] -= law.normal_energy(c, before);
   else if constexpr (Law::kBeyondContact)
-    rows[EnergyRow::adhesion] -= law.normal_energy(c, 0);
+    rows[EnergyRow::adhesion] -= law.normal_energy(c, starts);
 }
 
 // Returns a vector that a pair has kept, turned into the tangent plane of this step in the same way as the law turns its springs.

@@ -98,7 +98,7 @@ class PairEngineOn : public PairEngine {
     laws_.clear();
     std::vector<LawBytes> bytes;
     std::vector<int> kinds, history;
-    std::vector<Real> pull_off;
+    std::vector<LawReach> reach;
     std::vector<std::uint32_t> flips;
     kinds_.clear();
     beyond_ = false;
@@ -112,7 +112,7 @@ class PairEngineOn : public PairEngine {
       kinds.push_back(static_cast<int>(kind - kinds_.begin()));
       if (kind == kinds_.end()) kinds_.push_back(laws_.back());
       bytes.push_back(laws_.back().law);
-      pull_off.push_back(law.pull_off());
+      reach.push_back(law.reach());
       history.push_back(law.history_kind());
       flips.push_back(law.flips() |
                       (given.books ? KeptForces::flips() << (given.width - kKeptForces) : 0));
@@ -125,11 +125,11 @@ class PairEngineOn : public PairEngine {
         booked.push_back(book.law);
         if (of == books_.end()) books_.push_back(book);
       }
-      beyond_ = beyond_ || law.pull_off() > 0;
+      beyond_ = beyond_ || law.reach().acts();
     }
     bytes_ = from_cpu_array(bytes);
     kind_of_ = from_cpu_array(kinds);
-    pull_off_ = from_cpu_array(pull_off);
+    reach_ = from_cpu_array(reach);
     flips_ = from_cpu_array(flips);
     history_kind_ = from_cpu_array(history);
     law_of_ = from_cpu_array(given.law_of);
@@ -156,7 +156,7 @@ class PairEngineOn : public PairEngine {
     s.law_of = law_of_.data();
     s.n_types = n_types_;
     s.kind_of = kind_of_.data();
-    s.pull_off = pull_off_.data();
+    s.reach = reach_.data();
     for (int k = 0; k < 4; k++)
       if (step.factor[k] == 0) s.left_out |= 1u << k;
     s.alone = B::kOnCpu && threads() == 1;
@@ -408,7 +408,7 @@ class PairEngineOn : public PairEngine {
   std::vector<PairLawOn<B>> laws_, kinds_;    // of all laws; the first of each kind
   Array<LawBytes> bytes_;
   Array<int> kind_of_, law_of_, history_kind_;
-  Array<Real> pull_off_;
+  Array<LawReach> reach_;
   Array<std::uint32_t> flips_;
   int n_types_ = 0, width_ = 0, of_law_ = 0;
   bool by_law_ = false;

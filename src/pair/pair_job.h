@@ -127,7 +127,7 @@ struct PairLanes;
 // The law of a pair of types, compiled.
 struct PairLaw {
   LawBytes law;
-  Real pull_off;    // see ContactLaw::pull_off()
+  LawReach reach;    // see ContactLaw::reach()
   bool has_heat;
   unsigned stored;    // see stored_numbers() (pair_kernel.h)
   // Computes one pair: see evaluate_pair() (pair_kernel.h). Returns false if it does not touch; then nothing is changed.

@@ -10,21 +10,34 @@
 
 namespace lsdcd {
 
-// Returns whether adhesion can hold grains beyond contact. `pull_off`: see ContactLaw::pull_off().
-LSDCD_FN bool is_held(const GrainPair &p, Real pull_off)
+// Returns whether grains are within the reach of a law that acts beyond contact. `touched`: they are in contact since an earlier step.
+LSDCD_FN bool is_within(const GrainPair &p, const LawReach &reach, bool touched)
 {
+  if (!(reach.of == LawReach::Of::near || (touched && reach.acts()))) return false;
   const Real sum = p.radius_i + p.radius_j;
-  const Real reach = sum + pull_off * cube_root(p.radius_i * p.radius_j / sum);
-  return p.distance_sq < reach * reach;
+  const Real far =
+      sum + reach.at(p.radius_i * p.radius_j / sum,
+                     reach.per_size > 0 ? size_of_both(p.radius_i, p.radius_j) : Real(0));
+  return p.distance_sq < far * far;
 }
 
-// Returns whether the grains touch, or adhesion holds them. It holds only grains that have touched.
+// Returns the reach of a law that acts beyond contact.
+template <class Law>
+LSDCD_FN LawReach reach_of(const Law &law)
+{
+  if constexpr (Law::kReaches)
+    return law.cohesion.reach();
+  else
+    return {LawReach::Of::held, 0, law.elastic.pull_off, 0, 0};
+}
+
+// Returns whether the grains touch, or the law acts on them across a gap.
 template <class Law>
 LSDCD_FN bool pair_touches(const Law &law, const GrainPair &p, bool touched)
 {
   const Real sum = p.radius_i + p.radius_j;
   if (p.distance_sq < sum * sum) return true;
-  if constexpr (Law::kBeyondContact) return touched && is_held(p, law.elastic.pull_off);
+  if constexpr (Law::kBeyondContact) return is_within(p, reach_of(law), touched);
   return false;
 }
 

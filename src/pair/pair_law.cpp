@@ -43,6 +43,7 @@ namespace {
 PairLaw law_without_books(const ContactLaw &law)
 {
   if (law.is_classic()) return law.is_extended() ? added_pair(law) : classic_pair(law);
+  if (law.reaches()) return reaching_pair(law);
   if (law.yields()) return plastic_pair(law);
   return law.is_extended() ? granular_added_pair(law) : granular_pair(law);
 }

@@ -101,7 +101,7 @@ class PairStep {
   {
     for (int k = 0; k < kLaneNumbers; k++) lanes_.before[k] = lanes_.after[k] = lanes_.memory[k];
     for (int law = 0; law < job.n_laws; law++) {
-      beyond_contact_ = beyond_contact_ || job.laws[law].pull_off > 0;
+      beyond_contact_ = beyond_contact_ || job.laws[law].reach.acts();
       most_stored_ = std::max(most_stored_, static_cast<int>(count_bits(job.laws[law].stored)));
     }
     if (!kOne) make_room((most_wait_ + 2 * kFindAtOnce) / 2);    // of which it makes twice as much
@@ -182,14 +182,18 @@ class PairStep {
       p.radius_i = job_.radius[i];
       p.radius_j = job_.radius[j];
       const Real sum = p.radius_i + p.radius_j;
-      if (p.distance_sq < sum * sum || (keeps_ && is_held(p, job_.laws[law_of(i, j)].pull_off) &&
-                                        job_.old->find(key) != job_.old->size())) {
+      if (p.distance_sq < sum * sum || is_within_reach(p, job_.laws[law_of(i, j)].reach, key)) {
         first_[count] = i;
         neighbour_[count] = neighbour;
         key_[count++] = key;
       }
     }
     return without_excluded(count - n_found_);
+  }
+  bool is_within_reach(const GrainPair &p, const LawReach &reach, std::size_t key) const
+  {
+    return is_within(p, reach, true) &&
+           (reach.of == LawReach::Of::near || (keeps_ && job_.old->find(key) != job_.old->size()));
   }
   // Takes those away whose factor is 0, and those of two grains that do not move.
   int without_excluded(int n)

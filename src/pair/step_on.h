@@ -43,7 +43,7 @@ struct PairStepView : PairInput {
   int n_types = 0;
   const int *kind_of = nullptr;    // laws of one kind have the same compiled law
   int kind = 0;                    // the kind whose pairs are computed
-  const Real *pull_off = nullptr;
+  const LawReach *reach = nullptr;
   Real *sums = nullptr;     // column k of kPairSums at [k * n_all]; null: not asked for
   unsigned left_out = 0;    // bit k: factor k is 0, and its pairs are left out
   bool alone = false;       // one thread adds forces
@@ -133,13 +133,14 @@ struct FindTouching {
     const Real of_j = s.radius[j], sum = radius + of_j, distance_sq = norm_sq(x - s.x[j]);
     bool yes = distance_sq < sum * sum;
     if constexpr (kBeyond)
-      if (!yes && s.old.words && s.old.words[std::size_t(w) * s.list.rows + k] >> bit & 1) {
+      if (!yes) {
         GrainPair p = {};
         p.distance_sq = distance_sq;
         p.radius_i = radius;
         p.radius_j = of_j;
-        const Real pull_off = s.pull_off[s.law(i, j)];
-        yes = pull_off > 0 && is_held(p, pull_off);
+        const bool touched =
+            s.old.words && s.old.words[std::size_t(w) * s.list.rows + k] >> bit & 1;
+        yes = is_within(p, s.reach[s.law(i, j)], touched);
       }
     return yes && !(s.left_out >> (with >> s.list.factor_shift & 3) & 1) && !are_frozen(s, i, j);
   }
@@ -344,6 +345,8 @@ PairLawOn<B> granular_added_pair_on(const ContactLaw &law);
 template <class B>
 PairLawOn<B> plastic_pair_on(const ContactLaw &law);
 template <class B>
+PairLawOn<B> reaching_pair_on(const ContactLaw &law);
+template <class B>
 PairLawOn<B> added_pair_on(const ContactLaw &law);
 template <class B>
 PairLawOn<B> classic_pair_on(const ContactLaw &law);
@@ -352,6 +355,7 @@ template <class B>
 PairLawOn<B> pair_law_on(const ContactLaw &law)
 {
   if (law.is_classic()) return law.is_extended() ? added_pair_on<B>(law) : classic_pair_on<B>(law);
+  if (law.reaches()) return reaching_pair_on<B>(law);
   if (law.yields()) return plastic_pair_on<B>(law);
   return law.is_extended() ? granular_added_pair_on<B>(law) : granular_pair_on<B>(law);
 }

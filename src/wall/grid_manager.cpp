@@ -61,11 +61,11 @@ bool GridManager::fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int
 {
   constexpr Real kHeadroom = 1.1;    // once radii are known to grow
   const Real old = cutoff(), of_coats = cutoff_of_coats();
-  if (std::max(cutoff_of(radius, pull_off_), of_coats) <= old) return fit_box(step);
+  if (std::max(cutoff_of(radius, reach_), of_coats) <= old) return fit_box(step);
   check_rmax(radius, spheres);
   const Real largest =
       settings_.rmax > 0 ? settings_.rmax : (old > 0 ? kHeadroom * radius : radius);
-  const Real reach = std::max(cutoff_of(largest, pull_off_), of_coats);
+  const Real reach = std::max(cutoff_of(largest, reach_), of_coats);
   check_reach(reach);
   if (old == 0 && radius > 0) checks_.check_radius(box(), radius);
   rebuild(reach, step);
@@ -74,7 +74,7 @@ bool GridManager::fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int
 
 Real GridManager::cutoff_of_coats() const
 {
-  return coats_.any() ? cutoff_of(coats_.largest_radius(), pull_off_) : 0;
+  return coats_.any() ? cutoff_of(coats_.largest_radius(), reach_) : 0;
 }
 
 void GridManager::check_rmax(Real radius, const SpheresOnCpu &spheres) const

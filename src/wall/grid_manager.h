@@ -25,7 +25,7 @@ class GridManager {
               std::deque<MeshPart> &meshes, BodyCoats &coats, BoxChecks &checks,
               HistoryExchange &history, TimeReport &times) :
       host_(host),
-      settings_(settings), pull_off_(largest_pull_off(laws)), meshes_(meshes), coats_(coats),
+      settings_(settings), reach_(longest_reach(laws)), meshes_(meshes), coats_(coats),
       checks_(checks), history_(history), times_(times)
   {
   }
@@ -70,7 +70,7 @@ class GridManager {
 
   Host &host_;
   const WallSpec &settings_;
-  const Real pull_off_;    // the largest of the laws
+  const LawReach reach_;    // the longest of the laws
   std::deque<MeshPart> &meshes_;
   BodyCoats &coats_;
   BoxChecks &checks_;

@@ -195,7 +195,8 @@ CLOUD_LAWS = (
     "hertz/material 5e5 0.3 0.3 tangential mindlin_rescale/force NULL 1 0.4 damping coeff_restitution limit_damping",
     "hertz/material 5e5 0.3 0.3 tangential mindlin_liggghts NULL 1 0.4 damping tsuji rolling epsd 0.1 0.1",
     f"jkr 5e5 5 0.3 30 {PLAIN} damping viscoelastic",
-    f"hysteretic 1e5 0.7 {PLAIN} rolling epsd2 0.1", f"eepa 4e5 0.8 0.5 30 1.5 2 0 {PLAIN} rolling sds 1e3 1 0.1")
+    f"hysteretic 1e5 0.7 {PLAIN} rolling epsd2 0.1", f"eepa 4e5 0.8 0.5 30 1.5 2 0 {PLAIN} rolling sds 1e3 1 0.1",
+    f"hooke 1e5 10 {PLAIN} rolling epsd2 0.1 cohesion capillary 3 20 60 1e-4", f"hysteretic 1e5 0.7 {PLAIN} cohesion linear 1e3 0.01")
 
 
 def cloud(folder, law, dt, run, ranks=1, newton="off", head=CLOUD_HEAD):

@@ -26,7 +26,8 @@ LAWS = ["hooke 1e4 30 tangential linear_nohistory 0.5 0.4 damping velocity", GRA
         "hertz/material 1e4 0.7 0.3 tangential mindlin_liggghts NULL 0.5 0.4 damping coeff_restitution rolling epsd2 0.3 cohesion sjkr 200",
         "law hooke 1e4 NULL 30 NULL 0.4 1", "law hooke/history 1e4 NULL 30 NULL 0.4 1", "law hertz/history 1e4 NULL 30 NULL 0.4 1",
         "law hooke 1e4 NULL 20 NULL 0.4 1 rolling cdt 0.3", "law hertz/history 1e4 NULL 20 NULL 0.4 1 rolling epsd 0.3 0.2 cohesion sjkr 200",
-        "hysteretic 1e4 0.6 tangential linear_history 3e3 0 0.4 rolling epsd2 0.3", "eepa 1e5 0.8 0.6 30 1.5 2.5 -0.1 tangential linear_history 3e3 0.5 0.4"]
+        "hysteretic 1e4 0.6 tangential linear_history 3e3 0 0.4 rolling epsd2 0.3", "eepa 1e5 0.8 0.6 30 1.5 2.5 -0.1 tangential linear_history 3e3 0.5 0.4",
+        "hysteretic 1e4 0.6 tangential linear_history 3e3 0 0.4 cohesion capillary 3 20 60 1e-4", "hooke 1e4 10 tangential linear_history 3e3 1 0.4 cohesion linear 50 0.02"]
 
 
 def prepare(folder):

@@ -226,7 +226,7 @@ std::vector<Pressed> pressed()
 // The torque of two steps at this spin.
 Vec3 torque_after(int steps, const EngineSettings &s, Real overlap, const Vec3 &omega, Real dt)
 {
-  Scene scene(floor_mesh(4, 2), kRadius + s.law().pull_off(), s);
+  Scene scene(floor_mesh(4, 2), cutoff_of(s.law(), kRadius), s);
   scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, 0}, omega);
   for (int i = 0; i < steps; i++) scene.compute(dt);
   return scene.torque(0);
@@ -307,7 +307,7 @@ TEST(sjkr, goes_with_each_normal_sub_model)
     const auto force = [&](Real cohesion) {
       EngineSettings s = p.settings;
       if (cohesion > 0) s = with_cohesion(s, cohesion);
-      Scene scene(floor_mesh(4, 2), kRadius + s.law().pull_off(), s);
+      Scene scene(floor_mesh(4, 2), cutoff_of(s.law(), kRadius), s);
       scene.add_sphere({0.1, 0.2, kRadius - p.overlap}, kRadius, kMass);
       scene.compute(1e-4);
       return scene.force(0).z;

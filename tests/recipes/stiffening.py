@@ -61,6 +61,13 @@ EDITS = {
     if (!uses_contact_radius()) return 0.5 * k * c.overlap * c.overlap;
 """),
     ],
+    "src/law/submodels/plastic.h": [
+        ("""\
+                TouchingModel<NormalModel::dmt>>;
+""", """\
+                TouchingModel<NormalModel::dmt>, TouchingModel<NormalModel::stiffening>>;
+"""),
+    ],
     "src/law/sub_models.cpp": [
         ("""\
       {F::normal, "hertz", at(N::hertz), """, """\

@@ -29,6 +29,9 @@ inline Real number_of(const Parameter &p, bool can_be_derived)
                                                       {"force", -0.5},
                                                       {"force/length^n", 1e4},
                                                       {"length", 0.3},
+                                                      {"degrees", 20},
+                                                      {"volume", 1e-3},
+                                                      {"force/mass", 5},
                                                       {"force/length", 1e3},
                                                       {"force/length^2", 1e5},
                                                       {"pressure", 1e5},
@@ -42,6 +45,10 @@ inline Real number_of(const Parameter &p, bool can_be_derived)
                                                       {"power/(length temperature)", 3},
                                                       {"power/(length^2 temperature)", 3}};
   if (p.may_be_null && can_be_derived) return NAN;
+  if (p.name == std::string("F0")) return 0.5;
+  if (p.unit == std::string("force/length") &&
+      (p.name == std::string("gamma") || p.name == std::string("K")))
+    return 2;    // a pull that lets grains come apart
   if (p.name == std::string("kp"))
     return 4e3;    // the stiffness of unloading, above that of loading
   if (p.name == std::string("py")) return 1e3;    // so that it yields
@@ -72,7 +79,7 @@ inline std::optional<ContactLaw> law_of_rows(const LawRows &rows, bool limit_dam
   }
   draft.law.limit_damping = limit_damping;
   try {
-    if (!draft.law.is_classic()) finish_granular(draft);
+    finish_law(draft);
   } catch (const LawError &) {
     return std::nullopt;
   }

@@ -51,9 +51,9 @@ TEST(coarse_grain, has_a_power_for_every_number_of_the_table)
 int power_of_unit(const std::string &unit)
 {
   const std::map<std::string, int> of_word = {
-      {"1", 0},        {"0", 0},      {"1.5", 0},    {"0.5", 0},  {"multiple", 0}, {"of", 0},
-      {"or", 0},       {"length", 1}, {"time", 1},   {"mass", 3}, {"force", 2},    {"energy", 3},
-      {"pressure", 0}, {"torque", 3}, {"volume", 3}, {"angle", 0}};
+      {"1", 0},        {"0", 0},      {"1.5", 0},    {"0.5", 0},   {"multiple", 0}, {"of", 0},
+      {"or", 0},       {"length", 1}, {"time", 1},   {"mass", 3},  {"force", 2},    {"energy", 3},
+      {"pressure", 0}, {"torque", 3}, {"volume", 3}, {"angle", 0}, {"degrees", 0}};
   int power = 0, sign = 1;
   std::string word;
   for (const char c : unit + " ") {

@@ -783,15 +783,16 @@ TEST(engine, a_sphere_that_is_pulled_from_past_the_reach_is_named)
 {
   int tried = 0;
   for (const EffectCase &effect : effect_cases()) {
-    const Real pull_off = effect.settings.law().pull_off(), cutoff = 0.5;
-    if (!(pull_off > 0)) continue;
+    const LawReach reach = effect.settings.law().reach();
+    const Real cutoff = 0.5;
+    if (!reach.acts()) continue;
     tried++;
     Particles p(effect.settings, 100, cutoff);
     // The radius from which a sphere is pulled from farther than the cutoff, by bisection.
     Real fits = 0, too_large = cutoff;
     while (too_large - fits > 1e-12) {
       const Real middle = (fits + too_large) / 2;
-      (middle + pull_off * std::cbrt(middle) <= cutoff ? fits : too_large) = middle;
+      (cutoff_of(middle, reach) <= cutoff ? fits : too_large) = middle;
     }
     ASSERT_GT(fits, 0.1) << effect.name;
     for (Real &radius : p.host.radius) radius = fits * (1 - 1e-9);

@@ -44,7 +44,7 @@ std::vector<ContactLaw> laws_of_few(bool booked)
     for (const SubModel *tangential : sub_models(Family::tangential)) {
       const ContactLaw law = law_with(static_cast<NormalModel>(normal->model),
                                       static_cast<TangentialModel>(tangential->model));
-      if (law.rescales() || law.pull_off() > 0 || law.yields()) continue;
+      if (law.rescales() || law.reach().acts() || law.yields()) continue;
       laws.push_back(law);
       laws.back().keeps_forces = booked;
     }

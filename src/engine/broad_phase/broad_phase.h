@@ -19,7 +19,8 @@ namespace lsdcd {
 // The input of a candidate search at one mesh; see CandidateTest.
 struct CandidateChoice {
   Spheres spheres;
-  Real margin, pull_off;
+  Real margin;
+  LawReach reach;
   StepCounts *counts;
   int *n_springs;
   const SpringsView *last;    // the springs of the last step; null: there are no contacts to close
@@ -55,7 +56,7 @@ class CandidateSelector {
     CandidateTest<kPast, kCloses> test = {
         grid,           mesh.grid.table,  BrickFilter<Real>(grid),
         choice.spheres, mesh.pose,        choice.margin,
-        past,           choice.pull_off,  grid.list_kind.is_complete(),
+        past,           choice.reach,     grid.list_kind.is_complete(),
         choice.counts,  choice.n_springs, choice.last ? *choice.last : SpringsView(),
         choice.mesh};
     test.fixed_margin = test.filter.margin(past * grid.inv_length / kBrickSide);
@@ -74,7 +75,7 @@ class BroadPhase {
 
  public:
   explicit BroadPhase(const EngineSettings &settings) :
-      pull_off_(largest_pull_off(settings.laws)), uses_slots_(lsdcd::uses_slots(settings)),
+      reach_(longest_reach(settings.laws)), uses_slots_(lsdcd::uses_slots(settings)),
       laws_(settings.laws), meshes_(settings.meshes)
   {
   }
@@ -104,9 +105,8 @@ class BroadPhase {
   {
     if (uses_slots()) return choose_slots(b, spheres, margin, counts, last);
     const GridView &grid = meshes_[0].grid.view;
-    CandidateSpheres candidates = {spheres.x, spheres.radius, pull_off_, nullptr, 0};
-    selector_.choose(b, meshes_[0],
-                     {spheres, margin, pull_off_, counts.data(), n_springs, last, 0});
+    CandidateSpheres candidates = {spheres.x, spheres.radius, reach_, nullptr, 0};
+    selector_.choose(b, meshes_[0], {spheres, margin, reach_, counts.data(), n_springs, last, 0});
     b.copy_out(counts.data(), counts_on_cpu_.data(), 1);
     counted_.record(b);
     // The lists are started before the CPU knows how many candidates there are, so that a GPU need not wait.
@@ -183,8 +183,7 @@ class BroadPhase {
     slots_.clear(b, spheres.n);
     std::uint32_t number = 0;
     for (const EngineMesh<B> &mesh : meshes_) {
-      selector_.choose(b, mesh,
-                       {spheres, margin, pull_off_, counts.data(), nullptr, last, number++});
+      selector_.choose(b, mesh, {spheres, margin, reach_, counts.data(), nullptr, last, number++});
       seen = read_one(b, counts.data());
       if (seen.too_large) return seen;
       slots_.add(b, selector_.data(), seen.n_candidates);
@@ -195,11 +194,11 @@ class BroadPhase {
     bool large = false;
     for (const EngineMesh<B> &mesh : meshes_) large |= mesh.grid.view.is_large;
     lists_.make(b, meshes_[0].grid.view, large, grids, slots_.mesh(),
-                {spheres.x, spheres.radius, pull_off_, slots_.sphere(), n_}, margin, counts.data());
+                {spheres.x, spheres.radius, reach_, slots_.sphere(), n_}, margin, counts.data());
     return seen;
   }
 
-  Real pull_off_;
+  LawReach reach_;
   bool uses_slots_;
   LawTable laws_;
   Array<int> kind_of_type_;

@@ -13,7 +13,7 @@
 #include "grid/lookup/brick_filter.h"
 #include "grid/lookup/grid_on.h"
 #include "grid/lookup/occupied_within.h"
-#include "law/submodels/normal.h"
+#include "law/reach.h"
 #include "motion/pose.h"
 
 namespace lsdcd {
@@ -31,9 +31,10 @@ struct PosedGrid {
 };
 
 // Returns the query for a sphere at x. Springs do not matter to the broad phase.
-LSDCD_FN QuerySphere query_sphere_at(const Pose &pose, const Vec3 &x, Real radius, Real pull_off)
+LSDCD_FN QuerySphere query_sphere_at(const Pose &pose, const Vec3 &x, Real radius,
+                                     const LawReach &reach)
 {
-  return {pose.to_mesh(x), radius, cutoff_of(radius, pull_off), nullptr, 0};
+  return {pose.to_mesh(x), radius, cutoff_of(radius, reach), nullptr, 0};
 }
 
 // Prefetches, on a CPU, what a search of a large wall reads first for a sphere at x, whose turn comes soon.
@@ -48,14 +49,14 @@ LSDCD_FN void prefetch_search([[maybe_unused]] const GridView &grid,
 struct CandidateSpheres {
   StridedView<const Real> x;
   const Real *radius;
-  Real pull_off;
+  LawReach reach;
   const int *index;    // the sphere of candidate k
   std::size_t n;       // number of candidates; 0: nothing is prefetched
 
   LSDCD_FN QuerySphere in_frame_of(const Pose &pose, std::size_t k) const
   {
     const int i = index[k];
-    return query_sphere_at(pose, x[i], radius[i], pull_off);
+    return query_sphere_at(pose, x[i], radius[i], reach);
   }
   LSDCD_FN void prefetch_ahead(const GridView &grid, const Pose &pose, std::size_t k) const
   {
@@ -74,7 +75,7 @@ struct CandidateTest {
   Spheres spheres;
   Pose pose;
   Real margin, past;     // lengths; past = margin - margin of the cells' lists, or 0
-  Real pull_off;         // of the law, at a radius of 1
+  LawReach reach;        // of the law
   bool by_features;      // test the features that cells list, too?
   StepCounts *counts;    // too_large becomes the first sphere that reaches past the grid
   int *n_springs;        // of each sphere, or null; becomes 0 for spheres that are not candidates
@@ -100,11 +101,11 @@ struct CandidateTest {
   // Returns whether a sphere could reach past the grid. check() then decides.
   LSDCD_FN bool may_be_large(const Item &item) const
   {
-    return in_group(item) && (pull_off > 0 || !(item.radius <= grid.cutoff));
+    return in_group(item) && (reach.acts() || !(item.radius <= grid.cutoff));
   }
   LSDCD_FN void check(std::size_t i, const Item &item) const
   {
-    if (may_be_large(item) && !(cutoff_of(item.radius, pull_off) <= grid.cutoff))
+    if (may_be_large(item) && !(cutoff_of(item.radius, reach) <= grid.cutoff))
       raise_to(&counts->too_large, kNoSphere - i);
   }
 
@@ -132,7 +133,7 @@ struct CandidateTest {
   template <unsigned kSize>
   LSDCD_FN bool refine(const Warp<kSize> &warp, bool mine, std::size_t i) const
   {
-    const QuerySphere s = query_sphere_at(pose, spheres.x[i], spheres.radius[i], pull_off);
+    const QuerySphere s = query_sphere_at(pose, spheres.x[i], spheres.radius[i], reach);
     return can_touch(warp, mine, grid, s, margin);
   }
   // Prefetches, on a CPU, what refine() of a large wall reads first.

@@ -224,7 +224,7 @@ class EngineOn : public WallEngine {
     const std::vector<ContactLaw> &laws = settings_.laws.laws;
     laws_ = Array<LawEntry>(laws.size());
     for (std::size_t k = 0; k < laws_.size(); k++)
-      put_one(b_, laws_.data() + k, LawEntry{law_.laws[k], laws[k].pull_off()});
+      put_one(b_, laws_.data() + k, LawEntry{law_.laws[k], laws[k].reach()});
   }
 
   // Copies the grids and settings of all meshes for the next step. Does not wait.

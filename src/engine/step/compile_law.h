@@ -39,6 +39,8 @@ CompiledLaw<B> granular_added_law(const ContactLaw &law, const WallEffects &effe
 template <class B>
 CompiledLaw<B> plastic_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
+CompiledLaw<B> reaching_law(const ContactLaw &law, const WallEffects &effects);
+template <class B>
 CompiledLaw<B> on_wall_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
 CompiledLaw<B> plain_law(const ContactLaw &law, const WallEffects &effects);
@@ -57,6 +59,7 @@ CompiledLaw<B> law_for(const EngineSettings &settings, const ContactLaw &law)
   if (law.keeps_forces)
     return effects.records ? energy_records_law<B>(law, effects) : energy_law<B>(law, effects);
   if (effects.records) return impacts_law<B>(law, effects);
+  if (law.reaches()) return reaching_law<B>(law, effects);
   if (law.yields()) return plastic_law<B>(law, effects);
   if (law.is_extended())
     return law.is_classic() ? added_law<B>(law, effects) : granular_added_law<B>(law, effects);

@@ -46,7 +46,7 @@ class LawBytes {
 // A law of a table.
 struct LawEntry {
   LawBytes law;
-  Real pull_off;    // see ContactLaw::pull_off()
+  LawReach reach;    // see ContactLaw::reach()
 };
 
 // The laws by mesh and kind of sphere. If a wall has one law, all indices are 0.

@@ -174,6 +174,15 @@ LSDCD_FN Real held_of(const Law &law, const C &c, const FullForce &f,
              : weight * normal_energy_with(law, c, c.overlap, memory) + springs_energy<Law>(now);
 }
 
+// Returns the overlap at which a contact begins: that of touch, unless the law pulls at what has not touched.
+template <class Law, class C>
+LSDCD_FN Real starts_at([[maybe_unused]] const Law &law, [[maybe_unused]] const C &c)
+{
+  if constexpr (Law::kReaches)
+    if (!law.needs_touch()) return -law.gap(c);
+  return 0;
+}
+
 // Add what sliding loses; the second function also adds what rolling and twisting lose.
 LSDCD_FN void add_losses(const SpringLoss &sliding, EnergyRows &rows)
 {
@@ -201,12 +210,43 @@ LSDCD_FN Real energy_left(const Law &, const KeptForces &old, const Vec3 &slip, 
   return springs_energy<Law>(old) - 0.5 * dt * power;
 }
 
+// Adds the springs of a contact that has ended to the energy balance.
+template <class Law>
+LSDCD_FN void book_springs_at_end(const Law &, const KeptForces &old, const Vec3 &n,
+                                  const Vec3 &slip, const Vec3 &rolling, Real twisting, Real dt,
+                                  EnergyRows &rows)
+{
+  const SpringLoss sliding =
+      spring_loss_at_end(dt * slip, old.friction, old.friction_spring, old.k_friction);
+  if constexpr (Law::kContactTorque)
+    add_losses(sliding,
+               spring_loss_at_end(dt * rolling, old.rolling, old.rolling_spring, old.k_rolling),
+               spring_loss_at_end((dt * twisting) * n, old.twisting * n, old.twisting_spring * n,
+                                  old.k_twisting),
+               rows);
+  else
+    add_losses(sliding, rows);
+}
+
+// Adds the springs of a contact that goes on across a gap, where they end.
+template <class Law, class C>
+LSDCD_FN void book_springs_across_gap(const Law &law, const C &c, const KeptForces &old,
+                                      EnergyRows &rows)
+{
+  const Vec3 rolling = rolling_part(c.omega, c.normal);
+  const Real twisting = dot(c.omega, c.normal);
+  book_springs_at_end(law, old, c.normal, c.v_tangent, rolling, twisting, c.dt, rows);
+  rows[EnergyRow::turned_springs] -= energy_left(law, old, c.v_tangent, rolling, twisting, c.dt);
+}
+
 // Adds the springs of a contact to the energy balance. `weight`: that of the contact; `old`: what it has taken over, in the plane of its
 // normal.
 template <class Law, class C>
 LSDCD_FN void book_springs(const Law &law, const C &c, const ForceParts &parts, Real weight,
                            const KeptForces &now, const KeptForces &old, EnergyRows &rows)
 {
+  if constexpr (Law::kReaches)
+    if (!(c.overlap > 0)) return book_springs_across_gap(law, c, old, rows);
   const auto weighted = [weight](SpringPart spring) {
     spring.k *= weight;
     return spring;
@@ -229,24 +269,6 @@ LSDCD_FN void book_springs(const Law &law, const C &c, const ForceParts &parts, 
     add_losses(sliding, rows);
     rows[EnergyRow::turned_springs] -= energy_left(law, old, c.v_tangent, {0, 0, 0}, 0, c.dt);
   }
-}
-
-// Adds the springs of a contact that has ended to the energy balance.
-template <class Law>
-LSDCD_FN void book_springs_at_end(const Law &, const KeptForces &old, const Vec3 &n,
-                                  const Vec3 &slip, const Vec3 &rolling, Real twisting, Real dt,
-                                  EnergyRows &rows)
-{
-  const SpringLoss sliding =
-      spring_loss_at_end(dt * slip, old.friction, old.friction_spring, old.k_friction);
-  if constexpr (Law::kContactTorque)
-    add_losses(sliding,
-               spring_loss_at_end(dt * rolling, old.rolling, old.rolling_spring, old.k_rolling),
-               spring_loss_at_end((dt * twisting) * n, old.twisting * n, old.twisting_spring * n,
-                                  old.k_twisting),
-               rows);
-  else
-    add_losses(sliding, rows);
 }
 
 // The energy balance of a sphere at one mesh in a step. add() takes each contact of the step, and then close() takes those of the last
@@ -492,25 +514,27 @@ struct EnergyBook {
   LSDCD_FN void begin(const Law &law, const SphereStateWith<Springs> &s,
                       const BookedContact<Law> &b)
   {
-    if constexpr (Law::kBeyondContact) {
+    if constexpr (Law::kBeyondContact && !Law::kReaches) {
       rows[EnergyRow::adhesion] -= b.weight * law.normal_energy(b.c, 0);
     } else {
       // A sphere that touched nothing was outside a step ago, unless it was put into the wall.
       constexpr Real kOutside = 1e-9;
-      const Real before = b.c.overlap + b.c.dt * b.c.v_normal;
-      if (s.n_springs == 0 && before > kOutside * b.c.radius)
+      const Real before = b.c.overlap + b.c.dt * b.c.v_normal, starts = starts_at(law, b.c);
+      if (s.n_springs == 0 && before > starts + kOutside * b.c.radius)
         rows[EnergyRow::inserted] -= b.weight * law.normal_energy(b.c, before);
+      else if constexpr (Law::kReaches)
+        rows[EnergyRow::adhesion] -= b.weight * law.normal_energy(b.c, starts);
     }
   }
-  // Adds what is lost as surfaces that adhere let go at the pull-off.
+  // Adds what is lost as surfaces that adhere let go at the pull-off. Cohesion across a gap holds nothing where it ends.
   template <class Springs>
   LSDCD_FN void let_go(const Law &law, const SphereStateWith<Springs> &s, const KeptForces &old)
   {
-    if constexpr (Law::kBeyondContact) {
+    if constexpr (Law::kBeyondContact && !Law::kReaches) {
       Contact c = {};
       c.radius = s.radius;
       rows[EnergyRow::adhesion] +=
-          old.weight * law.normal_energy(c, s.radius - cutoff_of(s.radius, law.elastic.pull_off));
+          old.weight * law.normal_energy(c, s.radius - (s.radius + law.gap(c)));
     }
   }
   // Adds what contact k of the last step, which had yielded, loses on its adhesive branch as the sphere moves away by `away` and parts.

@@ -332,22 +332,12 @@ LSDCD_FN int apply_to_all(const StepJob &job, const Sphere &sphere, std::size_t 
   return some.set.n;
 }
 
-template <class Law>
-LSDCD_FN Real pull_off_of(const Law &law)
-{
-  if constexpr (Law::kBeyondContact)
-    return law.elastic.pull_off;
-  else
-    return 0;
-}
-
 // Returns the query for candidate k.
 template <class Law>
 LSDCD_FN QuerySphere query_sphere_of_candidate(const Law &law, const StepJob &job, std::size_t k)
 {
   const std::size_t i = sphere_of(job, k);
-  return query_sphere_of(job, i, centre_of<Law>(job, i), job.radius[i], Law::kBeyondContact,
-                         pull_off_of(law));
+  return query_sphere_of(job, law, i, centre_of<Law>(job, i), job.radius[i]);
 }
 
 // Returns whether candidate k needs a new list.
@@ -399,7 +389,7 @@ LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t
   const std::size_t i = sphere_of(job, k);
   const Vec3 x = centre_of<Law>(job, i);
   const Real radius = job.radius[i];
-  const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyondContact, pull_off_of(law));
+  const QuerySphere s = query_sphere_of(job, law, i, x, radius);
   check_cutoff(job, i, s.cutoff);
   const ListedFeatures listed = {job.lists, k};
   const ListedFeatures *list = job.lists.n ? &listed : nullptr;
@@ -441,7 +431,7 @@ struct MeshStep {
     const std::size_t i = sphere_of(job, k);
     const Vec3 x = centre_of<Law>(job, i);
     const Real radius = job.radius[i];
-    const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyondContact, pull_off_of(law));
+    const QuerySphere s = query_sphere_of(job, law, i, x, radius);
     if (!job.lists.holds(k, x, s.cutoff)) return false;
     ContactSet<1> set;
     find_listed<Law::kNodes>(job.grid, {job.lists, k}, x, s.cutoff, set);

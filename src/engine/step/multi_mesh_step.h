@@ -55,7 +55,7 @@ template <bool kBeyondContact>
 LSDCD_FN Real cutoff_with(const StepJob &job, const MultiMeshSphere &s, int mesh)
 {
   if constexpr (kBeyondContact)
-    return cutoff_of(s.radius, job.multi_mesh.laws.of(mesh, s.kind).pull_off);
+    return cutoff_of(s.radius, job.multi_mesh.laws.of(mesh, s.kind).reach);
   else
     return s.radius;
 }
@@ -92,6 +92,9 @@ LSDCD_FN QuerySphereWith<SpringsInFrame> in_frame_of(const StepJob &job, const M
       0};
   if (springs.count.at) seen.n_springs = springs.count[s.i];
   if (seen.n_springs > 0) seen.springs.springs += springs.first[s.i];
+  if constexpr (kBeyondContact)
+    if (job.multi_mesh.laws.of(mesh, s.kind).reach.of == LawReach::Of::near)
+      seen.radius = seen.cutoff;
   return seen;
 }
 

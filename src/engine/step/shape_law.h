@@ -58,7 +58,7 @@ struct ShapeLaw {
   static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory ? 1 : 0, kScalars = 0, kExtra = 3 * kVectors;
   static constexpr bool kBeyondContact = false, kContactTorque = kBooks, kHeat = false;
-  static constexpr bool kYields = false, kMidpoint = false;
+  static constexpr bool kReaches = false, kYields = false, kMidpoint = false;
 
   const LawBytes *base;    // one of work->laws
   ContactForce (*evaluate_base)(const LawBytes &base, const Contact &, ContactMemory<0> &);

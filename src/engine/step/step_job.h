@@ -111,14 +111,17 @@ LSDCD_FN std::size_t sphere_of(const StepJob &job, std::size_t k)
   return job.candidates[k];
 }
 
-// Returns the query for sphere i at x. `beyond`: does the law act beyond contact? `pull_off`: that of the law, at a
-// radius of 1.
-LSDCD_FN QuerySphere query_sphere_of(const StepJob &job, std::size_t i, const Vec3 &x, Real radius,
-                                     bool beyond, Real pull_off)
+// Returns the query for sphere i at x.
+template <class Law>
+LSDCD_FN QuerySphere query_sphere_of(const StepJob &job, [[maybe_unused]] const Law &law,
+                                     [[maybe_unused]] std::size_t i, const Vec3 &x, Real radius)
 {
   QuerySphere s = {x, radius, radius, nullptr, 0};
-  if (beyond) {
-    s.cutoff = cutoff_of(radius, pull_off);
+  if constexpr (Law::kBeyondContact) {
+    Contact c = {};
+    c.radius = radius;
+    s.cutoff = radius + law.gap(c);
+    if (!law.needs_touch()) s.radius = s.cutoff;
     s.n_springs = job.springs.count[i];
     s.springs = job.springs.pool + (s.n_springs > 0 ? job.springs.first[i] : 0);
   }

@@ -63,13 +63,6 @@ inline NormalFacts facts_of(NormalModel model)
   throw std::logic_error("facts_of (normal.h) has no case of this normal sub-model");
 }
 
-// Returns how far from its centre a sphere feels the wall. `pull_off` is for a radius of 1, and greater than 0 only for
-// adhesion that acts beyond contact.
-LSDCD_FN Real cutoff_of(Real radius, Real pull_off)
-{
-  return pull_off > 0 ? radius + pull_off * cube_root(radius) : radius;
-}
-
 // ---- the classic styles ------------------------------------------------------------------
 
 // Linear spring. k: force/length.
@@ -108,6 +101,7 @@ struct HertzNormal {
 // Toporov 1975) is Hertz minus a constant pull 4 pi gamma R while the spheres touch.
 struct TouchingNormal {
   static constexpr bool kBeyondContact = false;    // does it act past touch?
+  static constexpr int kScalars = 0;               // numbers that a contact keeps for it
   NormalModel model;
   Real k;       // force/length (hooke), force/length^2
   Real pull;    // 4 pi gamma, force/length; 0 but for dmt
@@ -142,6 +136,7 @@ struct TouchingNormal {
 // the pull is greatest, 3 pi gamma R, at an overlap of -(3 pi^2 gamma^2 R/(16 E^2))^(1/3).
 struct JkrNormal {
   static constexpr bool kBeyondContact = true;
+  static constexpr int kScalars = 0;
   Real modulus, surface_energy;
   Real root;        // sqrt(pi gamma E)
   Real size;        // (4 pi gamma/E)^(1/3): a = size R^(2/3) y^2 with y = 1 at overlap 0

@@ -369,7 +369,51 @@ struct ThorntonNormal : WithoutBranch {
   }
 };
 
-// ---- the family --------------------------------------------------------------------------
+// ---- the families ------------------------------------------------------------------------
+
+// A model of TouchingNormal as one of this family, which keeps nothing. Numbers: the stiffness, and for `dmt` the pull per radius.
+template <NormalModel kModel_>
+struct TouchingModel : WithoutBranch {
+  static constexpr NormalModel kModel = kModel_;
+  static constexpr int kStored = 0;
+  static constexpr bool kHeals = false;
+
+  LSDCD_FN static TouchingNormal normal(const Real *n) { return {kModel, n[0], n[1]}; }
+  template <class C>
+  LSDCD_FN static void update(const Real *, const C &, Real *)
+  {
+  }
+  template <class C>
+  LSDCD_FN static Real force(const Real *n, const C &c, const Real *)
+  {
+    return normal(n).force(c, normal(n).contact_radius(c));
+  }
+  template <class C>
+  LSDCD_FN static Real held(const Real *n, const C &c, const Real *)
+  {
+    return normal(n).energy(c, normal(n).contact_radius(c));
+  }
+  template <class C>
+  LSDCD_FN static Real yielded(const Real *, const C &, const Real *)
+  {
+    return 0;
+  }
+  template <class C>
+  LSDCD_FN static Real pull(const Real *n, const C &c, const Real *)
+  {
+    return 2 * n[1] * c.radius;
+  }
+  template <class C>
+  LSDCD_FN static Real loading(const Real *n, const C &c)
+  {
+    return normal(n).secant(c, normal(n).contact_radius(c));
+  }
+  template <class C>
+  LSDCD_FN static Real unloading(const Real *n, const C &c)
+  {
+    return normal(n).tangent(c, normal(n).contact_radius(c));
+  }
+};
 
 // The models of one kernel. All contacts of a wall have the same one.
 template <class... Models>
@@ -388,6 +432,13 @@ struct Plastic {
   }
   // Returns whether what a contact keeps shrinks as it opens.
   LSDCD_FN bool heals() const { return ((model == Models::kModel && Models::kHeals) || ...); }
+
+  // Forgets, as the surfaces part, what a contact that heals keeps.
+  LSDCD_FN void forget(Real *own) const
+  {
+    for (int k = 0; k < kScalars; k++)
+      if (heals()) own[k] = 0;
+  }
 
   LSDCD_FN bool uses_contact_radius() const { return false; }    // does the force need it?
   LSDCD_FN Real contact_radius(const Contact &c) const { return sqrt(c.overlap * c.radius); }
@@ -466,9 +517,15 @@ struct Plastic {
   }
 };
 
-using PlasticNormal = Plastic<HystereticNormal<NormalModel::hysteretic, false>,
-                              HystereticNormal<NormalModel::hysteretic_size, true>,
-                              HystereticNormal<NormalModel::hysteretic_edem, true>, EepaNormal,
-                              LepaNormal, ThorntonNormal>;
+template <class... More>
+using PlasticWith = Plastic<More..., HystereticNormal<NormalModel::hysteretic, false>,
+                            HystereticNormal<NormalModel::hysteretic_size, true>,
+                            HystereticNormal<NormalModel::hysteretic_edem, true>, EepaNormal,
+                            LepaNormal, ThorntonNormal>;
+using PlasticNormal = PlasticWith<>;
+// Those of laws whose cohesion acts beyond touch, whether contacts yield or not.
+using ReachingNormal =
+    PlasticWith<TouchingModel<NormalModel::hooke>, TouchingModel<NormalModel::hertz>,
+                TouchingModel<NormalModel::dmt>>;
 
 }    // namespace lsdcd
