@@ -123,6 +123,44 @@ def beverloo(setting):
     yield Seen("exponent with k = 1.4", "1", exponent, 2.5, of, 0.2, "the scatter of a flow at one end, 12 %, over ln(5.6/2.6) = 0.77", True)
 
 
+# ---- a mill ----------------------------------------------------------------------------------
+
+# Behind the first output of examples/mill: means of the turns that follow, and the charge's angular momentum about the axis at both ends.
+LIFTED = """\
+compute         turns all property/atom omegay
+variable        spin atom 0.1*mass*v_d^2*c_turns
+compute         spin all reduce sum v_spin
+# LAMMPS's angmom() is about the centre of mass.
+variable        angular equal angmom(all,y)+mass(all)*(xcm(all,z)*vcm(all,x)-xcm(all,x)*vcm(all,z))+c_spin
+variable        lever equal 9.81*mass(all)*xcm(all,x)
+fix             means all ave/time 1 {count} {count} v_wall_torque_y v_lever
+thermo_style    custom step v_angular v_work v_balance
+run             0
+variable        before equal $(v_angular:%.17g)
+run             {count}
+print           "lifted $(f_means[1]:%.15g) $(f_means[2]:%.15g) $((v_angular-v_before)/({count}*dt):%.15g) $(v_work:%.15g) $({count}*dt:%.15g)"
+print           "closed $(v_balance:%.15g) $(v_begin:%.15g)"
+"""
+
+
+@case("mill", "A ball mill: torque, work and losses of a turn", AT_MESHES, MINUTES)
+def mill(setting):
+    place, count, period = ROOT / "examples" / "mill", 36000, 1.2
+    mesh = stl.read(place / "mill.stl")
+    stl.write(setting.folder / "mill.stl", mesh if setting.wall == TWO else cut(mesh, 3))
+    script = (place / "in.mill").read_text()
+    until = script.index("run             $(v_last-step)")
+    said = lmp.run_well(script[:until] + LIFTED.format(count=count), setting.folder, timeout=3000, dir=setting.folder, steps=50)
+    torque, lever, gained, work, time = map(float, re.search(r"^lifted (.*)", said, re.M)[1].split())
+    balance, begin = map(float, re.search(r"^closed (.*)", said, re.M)[1].split())
+    ends = "the mean begins and ends half a step off, with a torque of up to three times the mean: 3/36000"
+    yield Seen("torque of the mill, over that of the lifted charge and what it gains in angular momentum", "1", -torque / (gained - lever), 1.0,
+               "balance of angular momentum: M g x of its centre", 1e-4, ends)
+    yield Seen("work of the drive, over torque times angle", "1", work / (-torque * 2 * math.pi * time / period), 1.0, "mechanics", 1e-4, ends)
+    yield Seen("change of the energy balance, over the work of the drive", "1", (balance - begin) / work, 0.0, "conservation of energy", 9e-4,
+               "what examples/mill asks for: 1e-4 with 150 steps in a contact, and 9 times that with 50", True)
+
+
 def line(x, y):
     """Slope and zero of the line of least squares, and what it leaves of the squares, 1 - r^2."""
     mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)

@@ -7,10 +7,11 @@ import beds
 import impacts
 import resting
 import rolling
+import yielding
 from suite import CASES
 
 ORDER = ("hertz-wall", "hertz-pair", "restitution", "bouncing", "oblique", "oblique-normal", "spinning", "spinning-pair", "slip-roll", "incline", "rolling",
-         "held", "spin-down", "pressed", "held-force", "jkr", "janssen", "beverloo")
+         "held", "spin-down", "pressed", "held-force", "jkr", "yielding", "yielding-pair", "janssen", "beverloo", "mill")
 assert sorted(ORDER) == sorted(CASES), "a case is missing in the order of the page"
 CASES = {name: CASES[name] for name in ORDER}
-MODULES = (impacts, rolling, resting, beds)
+MODULES = (impacts, rolling, resting, yielding, beds)
