@@ -4,9 +4,10 @@
 """Where the time of a step goes on many cores, and what balancing brings: `./run bench cores --ranks 16`.
 
 Silo (100 000 grains), drum (38 000 of two sizes) and impact (25 000 and a ball) of the benchmark of eight codes, a closed mill of 30 000
-balls, and 27 000 grains of two sizes 10:1. Each is filled once, from a lattice, with a modulus that rises to that of the benchmark, so that
-it takes a minute on 16 cores, not an hour; LSDCD and LIGGGHTS go on from the same places and velocities, without springs. A run warms up
-and is then timed for about --seconds; its times are LAMMPS's own and the wall's, means over processes, in ms a step.
+balls, and 27 000 grains of two sizes 10:1 that get new lists each 20 steps. Each is filled once, from a lattice, with a modulus that rises
+to that of the benchmark, so that it takes a minute on 16 cores, not an hour; LSDCD and LIGGGHTS go on from the same places and velocities,
+without springs. A run warms up and is then timed for about --seconds; its times are LAMMPS's own and the wall's, means over processes, in
+ms a step.
 
 *Largest over mean* of a time is that of the busiest process over the mean of all. *Weights* of fix balance: none, neigh, time, and *var*,
 an atom-style variable 1 + a pairs + b contacts at the wall. Its a and b come from the times of one process: a touching pair takes a times
@@ -59,13 +60,13 @@ class Case:
 
     grain_types: of so many types there are grains. lid: a mesh that closes it until it has settled. dt: timestep, s. settle, flow: s of the
     softest grains with the lid, and then without. turn: axis and period, s, of the meshes. skin: m. below: grains below this z are deleted.
-    then: commands at the end. lists: a key of LISTS."""
+    then: commands at the end. lists: a key of LISTS. neighbors: of neigh_modify."""
 
     def __init__(self, grains, box, fill, materials, meshes, dt, *, grain_types=1, lid="", settle=0.0, flow=0.0, turn=None, skin=5e-4,
-                 below=None, then="", lists="bin"):
+                 below=None, then="", lists="bin", neighbors="every 1 delay 0 check yes"):
         self.grains, self.box, self.fill, self.materials, self.meshes, self.dt, self.lid = grains, box, fill, materials, meshes, dt, lid
         self.grain_types, self.settle, self.flow, self.turn, self.skin, self.below = grain_types, settle, flow, turn, skin, below
-        self.then, self.lists = then, lists
+        self.then, self.lists, self.neighbors = then, lists, neighbors
 
 
 LIP = -0.0554222
@@ -160,7 +161,7 @@ displace_atoms all random 1e-4 1e-4 1e-4 1 units box
 """, ("ball", "steel"), {"mill.stl": ""}, dt=4e-6, flow=0.45, turn=("0. 1. 0.", 1.2), skin=1e-3),
         "wide": Case(n["wide"], f"{-side / 2 - 0.004} {side / 2 + 0.004} {-side / 2 - 0.004} {side / 2 + 0.004} -0.004 0.3",
                      wide_fill(n["wide"], side), ("m1", "m1", "steel"), {"wide.stl": f"move {-side / 2} {-side / 2} 0."}, dt=1.5e-6,
-                     grain_types=2, settle=0.12, lists="multi, all"),
+                     grain_types=2, settle=0.12, lists="multi, all", neighbors="every 20 delay 0 check no"),
     }
 
 
@@ -211,7 +212,7 @@ def forces(case, softer=1, lid=False, contacts=False):
     of_types = "".join(f" types {k + 1} {m}" for k, m in enumerate(case.materials[:case.grain_types]) if m != first)
     turn = f" motion rotate 0. 0. 0. {case.turn[0]} {case.turn[1]:.12g}" if case.turn else ""
     meshes = "".join(f" mesh {mesh} {place}{turn}" for mesh, place in case.meshes.items()) + f" mesh {case.lid}" * bool(lid and case.lid)
-    return (text + f"neigh_modify every 1 delay 0 check yes\ntimestep {case.dt * softer**0.5:.6g}\n"
+    return (text + f"neigh_modify {case.neighbors}\ntimestep {case.dt * softer**0.5:.6g}\n"
             f"fix fall all gravity/lsdcd {G} vector 0 0 -1\nfix move all nve/sphere\n"
             f"fix wall all wall/lsdcd granular material {law} {first}{of_types} on {case.materials[-1]} {FRICTION}{meshes}" +
             " contacts" * contacts + "\n" +
@@ -481,9 +482,10 @@ def measure(options, folder):
         ms, facts = times_of(run.output, item, steps)
         if item.ranks == 1 and item.program == "lsdcd":
             facts.update(zip("ab", (f"{v:.4g}" for v in fitted(run.output, facts, case.grains))))
+        cores = item.ranks * item.threads
         kept.add(rows.timed("cores", name, options.commit, triangles_of(folder, case), case.grains, item.order(), [ms],
-                            device=f"CPU, {item.ranks * item.threads} cores, {rows.cpu()}", ranks=item.ranks, threads=item.threads,
-                            steps=steps, **facts))
+                            device=f"CPU, {cores} core{'s' * (cores > 1)}, {rows.cpu()}", ranks=item.ranks, threads=item.threads, steps=steps,
+                            **facts))
         took[item.case, item.program, item.ranks] = time.monotonic() - start
         rows.say(f"  {time.monotonic() - start:.1f} s, {so_far():.0f} s in all")
     if not kept.rows:

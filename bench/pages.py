@@ -158,7 +158,7 @@ def cores_tried(rows):
     if not rows:
         return NOT_MEASURED
     most = max(int(r["ranks"]) for r in rows)
-    mine = [r for r in rows if r["of"] == "lsdcd" and int(r["ranks"]) * int(r["threads"]) == most and r["bed"] in CORE_CASES]
+    mine = [r for r in rows if r["of"] == "lsdcd" and int(r["ranks"]) * int(r["threads"]) == most]
     orders = list(dict.fromkeys(r["order"].replace(", lists multi, all", "") for r in mine))
 
     def cells(order):
@@ -171,7 +171,7 @@ def cores_growth(rows):
     """Parallel efficiency against one process, without balance and with it."""
     if not rows:
         return NOT_MEASURED
-    mine = [r for r in rows if r["of"] == "lsdcd" and r["threads"] == "1" and r["bed"] in CORE_CASES and "processors" not in r["order"]]
+    mine = [r for r in rows if r["of"] == "lsdcd" and r["threads"] == "1" and "processors" not in r["order"]]
     alone = {r["bed"]: float(r["median_ms"]) for r in mine if r["ranks"] == "1"}
     ranks = sorted({int(r["ranks"]) for r in mine})
 
@@ -755,9 +755,10 @@ def tables():
     vessel = tradeoff("vessel")
     effects = [rows_of(f"effects_{device}.csv", ";") for device in DEVICES]
     cores = core_rows()
+    beds = [r for r in cores if r["bed"] in CORE_CASES]
     return {
         "performance.md": {"hours": hours(kokkos_cpu, kokkos_cuda), "cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda),
-                           "cores": cores_times(cores), "cores-tried": cores_tried(cores), "cores-growth": cores_growth(cores),
+                           "cores": cores_times(beds), "cores-tried": cores_tried(beds), "cores-growth": cores_growth(beds),
                            "cores-wide": cores_wide(cores)},
         "notes/performance.md": {"scale": scale(rows_of("scale_cuda.csv")), "liggghts": liggghts(rows_of("liggghts_cpu.csv"))},
         "notes/accuracy.md": {"floor": f"{float(effects[0][0]['min_ns']):.0f} ns"},

@@ -252,3 +252,21 @@ def test_files_of_fields(folder):
     (folder / "out").mkdir()
     lmp.run_well(BOX + fix("mesh_fields out/f_*.vtp every 1000") + "run 1\n", folder)
     fact("the look at the folder leaves nothing", not list((folder / "out").iterdir()))
+
+
+def test_lists_that_last_too_short(folder):
+    """A grain that goes half the skin in each step or two."""
+    lmp.flat_floor(folder)
+    text = lmp.run_well(BOX + "neighbor 0.001 bin\n" + fix() + "velocity all set 0.5 0 0\nrun 1000\nrun 1000\n", folder)
+    said = re.findall(r"lists lasted only \S+ steps: a skin of (\S+) would serve in place of 0.001", text)
+    fact("a run says so once", len(said) == 1, said)
+    # So many times as long as 20 steps are of what LAMMPS counted; two digits are written.
+    builds = int(re.search(r"Neighbor list builds = (\d+)", text).group(1))
+    at_most("with the skin for 20 steps", abs(float(said[0]) / (0.001 * 20 * builds / 1000) - 1), 0.05)
+
+
+def test_lists_that_others_force(folder):
+    lmp.flat_floor(folder)
+    text = lmp.run_well(BOX + fix() + "fix even all balance 2 1.0 shift x 5 1.1\nvelocity all set 0.1 0 0\nrun 1000\n", folder)
+    builds = int(re.search(r"Neighbor list builds = (\d+)", text).group(1))
+    fact("lists that fix balance makes say nothing of the skin", builds >= 499 and "lists lasted" not in text, builds)
