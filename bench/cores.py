@@ -484,8 +484,8 @@ def measure(options, folder):
             facts.update(zip("ab", (f"{v:.4g}" for v in fitted(run.output, facts, case.grains))))
         cores = item.ranks * item.threads
         kept.add(rows.timed("cores", name, options.commit, triangles_of(folder, case), case.grains, item.order(), [ms],
-                            device=f"CPU, {cores} core{'s' * (cores > 1)}, {rows.cpu()}", ranks=item.ranks, threads=item.threads, steps=steps,
-                            **facts))
+                            device=f"CPU, {cores} core{'s' * (cores > 1)}, {rows.cpu()}", ranks=item.ranks, threads=item.threads,
+                            steps=steps, **facts))
         took[item.case, item.program, item.ranks] = time.monotonic() - start
         rows.say(f"  {time.monotonic() - start:.1f} s, {so_far():.0f} s in all")
     if not kept.rows:
