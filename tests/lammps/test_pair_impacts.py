@@ -8,6 +8,7 @@ import itertools
 import math
 
 import numpy as np
+import pytest
 
 import lmp
 from facts import at_most, fact
@@ -296,14 +297,14 @@ def test_gas(folder):
             compare(f"{law}, newton {newton}, {ranks} processes", found, row, folder / "s.csv")
 
 
-def test_many(folder):
+@pytest.mark.parametrize("newton, ranks", (("off", 1), ("off", 2), ("on", 4)))
+def test_many(folder, newton, ranks):
     """1e4 impacts in such a gas."""
-    side, n = 10, 3200
-    for newton, ranks in (("off", 1), ("off", 2), ("on", 4)):
-        row = lmp.read_thermo(lmp.run_well(gas(SPRINGS, side, newton, n=n) + DUMP + f"run {n}\n", folder, ranks))[-1]
-        found = struck(folder / "gas.dump", side ** 3, side * SPACING)
-        fact("1e4 impacts", sum(map(len, found.values())) >= 1e4, sum(map(len, found.values())))
-        compare(f"newton {newton}, {ranks} processes", found, row, folder / "s.csv")
+    side, n = 12, 4000
+    row = lmp.read_thermo(lmp.run_well(gas(SPRINGS, side, newton, n=n) + DUMP + f"run {n}\n", folder, ranks))[-1]
+    found = struck(folder / "gas.dump", side ** 3, side * SPACING)
+    fact("1e4 impacts", sum(map(len, found.values())) >= 1e4, sum(map(len, found.values())))
+    compare(f"newton {newton}, {ranks} processes", found, row, folder / "s.csv")
 
 
 def same_spectra(name, one, other):
