@@ -10,7 +10,7 @@
 namespace lsdcd {
 
 std::string molecule_text(const std::vector<Ball> &balls, const std::vector<Real> &masses,
-                          const MassProperties &clump, const std::string &about)
+                          const MassProperties &clump, int type, const std::string &about)
 {
   const auto words = [](const std::vector<Real> &numbers) {
     std::string line;
@@ -33,7 +33,7 @@ std::string molecule_text(const std::vector<Ball> &balls, const std::vector<Real
     const Vec3 &c = balls[k].centre;
     return words({c.x, c.y, c.z});
   });
-  section("Types", [](std::size_t) { return std::string("1"); });
+  section("Types", [&](std::size_t) { return std::to_string(type); });
   section("Diameters", [&](std::size_t k) { return words({2 * balls[k].radius}); });
   section("Masses", [&](std::size_t k) { return words({masses[k]}); });
   return text;

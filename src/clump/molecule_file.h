@@ -13,11 +13,11 @@
 namespace lsdcd {
 
 // Returns the text of a file for the command molecule of LAMMPS: mass, centre and inertia of the clump in the header, and places,
-// types 1, diameters and masses of its spheres. `about`: a line of text that says what it is, without an end.
+// types, diameters and masses of its spheres. `type`: of its atoms. `about`: a line of text that says what it is, without an end.
 //
-// The inertia is about the centre along the axes of the file, in the order xx yy zz yz xz xy: so LAMMPS reads it, in 29Sep2021 as in 4Jul2026
-// (Molecule::compute_inertia() in src/molecule.cpp), where the page of the command has xy xz yz.
+// The inertia is about the centre along the axes of the file, in the order xx yy zz yz xz xy: so LAMMPS reads it, in 29Sep2021 as in
+// 4Jul2026 (Molecule::compute_inertia() in src/molecule.cpp), where the page of the command has xy xz yz.
 std::string molecule_text(const std::vector<Ball> &balls, const std::vector<Real> &masses,
-                          const MassProperties &clump, const std::string &about);
+                          const MassProperties &clump, int type, const std::string &about);
 
 }    // namespace lsdcd

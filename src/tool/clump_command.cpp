@@ -7,6 +7,7 @@
 #include "clump/atom_masses.h"
 #include "clump/fill_mesh.h"
 #include "clump/molecule_file.h"
+#include "clump/principal_frame.h"
 #include "clump/sphere_union.h"
 #include "clump/surface_gap.h"
 #include "tool/ball_reader.h"
@@ -33,28 +34,9 @@ struct ClumpOptions {
   PlacementOptions place;
   std::size_t spheres = 0;    // 0: not given
   double least_radius = 0, stick_out = 0, density = 1, weld = -1;
-  bool json = false;
+  int type = 1;
+  bool principal = false, json = false;
 };
-
-// Moments along principal axes, the smallest first.
-struct Principal {
-  Real moment[3];
-  Vec3 axis[3];    // right-handed
-};
-
-Principal principal_of(const SymmetricMatrix &inertia)
-{
-  const PrincipalAxes p = principal_axes(inertia);
-  int order[3] = {0, 1, 2};
-  std::sort(order, order + 3, [&](int i, int j) { return p.value[i] < p.value[j]; });
-  Principal sorted;
-  for (int k = 0; k < 3; k++) {
-    sorted.moment[k] = p.value[order[k]];
-    sorted.axis[k] = p.axis[order[k]];
-  }
-  sorted.axis[2] = cross(sorted.axis[0], sorted.axis[1]);
-  return sorted;
-}
 
 // What the mesh has, for which a clump stands.
 struct MeshFacts {
@@ -98,6 +80,9 @@ void check(const ClumpOptions &o)
     throw_usage_error("mesh", "give a mesh and --spheres, or --list, a file of spheres");
   if (o.list.empty() && o.spheres == 0)
     throw_usage_error("--spheres", "is required: how many spheres may fill the mesh?");
+  if (o.output.empty() && (o.principal || o.type != 1))
+    throw_usage_error(o.principal ? "--principal" : "--type",
+                      "is of the molecule file: give --output, too");
   if (!(o.stick_out < 1)) throw_usage_error("--stick-out", "give a share of the radius below 1");
   if (o.list.empty()) return;
   if (!o.place.matrix.empty())
@@ -286,10 +271,13 @@ void run(const ClumpOptions &o)
   check(o);
   check_outputs({{"--output", o.output}}, {o.mesh, o.list});
   const ClumpAnswer answer = answer_of(o);
+  std::vector<Ball> balls = answer.balls;
+  MassProperties clump = answer.all.properties;
+  if (o.principal) place_in_principal_frame(answer.principal, balls, clump);
   if (!o.output.empty())
     write_whole_file(
         o.output,
-        molecule_text(answer.balls, answer.atoms.mass, answer.all.properties,
+        molecule_text(balls, answer.atoms.mass, clump, o.type,
                       "a clump of " +
                           counted(static_cast<std::int64_t>(answer.balls.size()), "sphere") +
                           " at a density of " + number_text(o.density) +
@@ -331,6 +319,13 @@ void add_clump_command(Command &program)
               "file of spheres instead, a line x y z radius each; with a mesh it is compared")
       .excludes(spheres);
   command.option("-o,--output", o->output, "molecule file to write");
+  command.option("--type", o->type, "atom type of the spheres in the file")
+      .range(1, 2147483647)
+      .shows_default();
+  command.flag(
+      "--principal", o->principal,
+      "in the file the origin is the centre of mass, and x, y and z are the principal axes, "
+      "the smallest moment first");
   command.option("--density", o->density, "density").check(above_zero).shows_default();
   command.option("--least-radius", o->least_radius, "least radius of a sphere that fills the mesh")
       .check(above_zero);

@@ -128,6 +128,8 @@ BAD = [    # words, exit code, what is said
     ("clump wall.stl", 2, ["--spheres: is required"]),
     ("clump wall.stl --spheres 0", 2, ["--spheres", "0 not in range 1 to 100000"]),
     ("clump wall.stl --spheres 2 --list pair.txt", 2, ["--list", "--spheres"]),
+    ("clump --list pair.txt --principal", 2, ["--principal: is of the molecule file: give --output"]),
+    ("clump --list pair.txt --type 2", 2, ["--type: is of the molecule file: give --output"]),
     ("clump wall.stl --spheres 2 --stick-out 1", 2, ["--stick-out", "below 1"]),
     ("clump wall.stl --spheres 2 --density 0", 2, ["--density", "0 is not a number above 0"]),
     ("clump wall.stl --spheres 2 --least-radius 0.6", 1, ["wall.stl", "radius of 0.6", "smaller --least-radius"]),

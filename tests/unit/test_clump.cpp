@@ -6,6 +6,7 @@
 #include "clump/atom_masses.h"
 #include "clump/fill_mesh.h"
 #include "clump/molecule_file.h"
+#include "clump/principal_frame.h"
 #include "clump/sphere_union.h"
 #include "clump/surface_gap.h"
 #include "support/meshes.h"
@@ -493,6 +494,35 @@ TEST(clump, of_one_sphere_has_one_atom_of_its_mass)
   EXPECT_NEAR(atom_masses(one, p).mass[0], p.mass, 1e-12 * p.mass);
 }
 
+// Sets whose four first centres span a volume, which has its sign.
+TEST(clump, in_its_principal_frame_has_its_moments_about_the_origin_and_is_no_mirror_image)
+{
+  Random random(37);
+  for (int n = 0; n < 10; n++) {
+    const std::vector<Ball> balls = random_clump(random, 6);
+    const MassProperties was = union_of(balls, 3).properties;
+    const Principal principal = principal_of(was.inertia);
+    std::vector<Ball> placed = balls;
+    MassProperties told = was;
+    place_in_principal_frame(principal, placed, told);
+    // union_of() is exact to 1e-10 of the volume.
+    const MassProperties is = union_of(placed, 3).properties;
+    const Real moment = principal.moment[2];
+    EXPECT_LT(norm(is.centre), 1e-8);
+    const SymmetricMatrix &i = is.inertia;
+    for (const Real off :
+         {i.xx - told.inertia.xx, i.yy - told.inertia.yy, i.zz - told.inertia.zz, i.xy, i.xz, i.yz})
+      EXPECT_LT(std::fabs(off), 1e-8 * moment);
+    EXPECT_TRUE(i.xx <= i.yy && i.yy <= i.zz);
+    EXPECT_TRUE(norm(told.centre) == 0 && told.inertia.xy == 0);
+    const auto spanned = [](const std::vector<Ball> &b) {
+      return dot(cross(b[1].centre - b[0].centre, b[2].centre - b[0].centre),
+                 b[3].centre - b[0].centre);
+    };
+    EXPECT_NEAR(spanned(placed), spanned(balls), 1e-12 * (1 + std::fabs(spanned(balls))));
+  }
+}
+
 // ---- the file -----------------------------------------------------------------------------------
 
 TEST(clump, is_written_as_a_molecule_with_the_products_of_inertia_in_the_order_that_lammps_reads)
@@ -501,10 +531,10 @@ TEST(clump, is_written_as_a_molecule_with_the_products_of_inertia_in_the_order_t
   p.mass = 2;
   p.centre = {1, 0.5, 0.25};
   p.inertia = {11, 12, 13, 0.12, 0.13, 0.23};
-  EXPECT_EQ(molecule_text({{{0, 1, 2}, 0.5}, {{3, 4, 5}, 0.25}}, {1.5, 0.5}, p, "two"),
+  EXPECT_EQ(molecule_text({{{0, 1, 2}, 0.5}, {{3, 4, 5}, 0.25}}, {1.5, 0.5}, p, 3, "two"),
             "# two\n\n2 atoms\n2 mass\n1 0.5 0.25 com\n"
             "11 12 13 0.23 0.13 0.12 inertia    # xx yy zz yz xz xy, as LAMMPS reads them\n"
-            "\nCoords\n\n1 0 1 2\n2 3 4 5\n\nTypes\n\n1 1\n2 1\n"
+            "\nCoords\n\n1 0 1 2\n2 3 4 5\n\nTypes\n\n1 3\n2 3\n"
             "\nDiameters\n\n1 1\n2 0.5\n\nMasses\n\n1 1.5\n2 0.5\n");
 }
 
