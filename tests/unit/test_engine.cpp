@@ -434,7 +434,7 @@ TEST(engine, a_selection_by_flags_leaves_the_spheres_that_one_by_blocks_leaves)
           Pose(),
           0.05,
           0,
-          0,
+          LawReach(),
           by_features,
           &counts,
           springs[k].data(),
