@@ -35,7 +35,7 @@ LAYERS = [["base"], ["backend"], ["geometry", "shape"], ["mesh"], ["box"], ["hos
 FOLDERS = {
     "mesh": [".", "io"],
     "grid": [".", "lookup", "plan", "build", "cache"],
-    "law": ["contact.h", "force_parts.h", "submodels", "."],
+    "law": ["contact.h", "force_parts.h", "reach.h", "submodels", "."],
     "engine": ["results", ".", "lists", "nodes", "loads", "broad_phase", "step", "on_backend"],
     "wall": ["spec", "spheres", "sums", "saved", "surface", "move", "part", "coat", "checks", "reports", "."],
     "lammps": [".", "launcher"],
