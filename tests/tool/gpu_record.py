@@ -29,6 +29,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 RECORD = ROOT / "doc/data/gpu_tests.csv"
 COLUMNS = ("test", "result", "seconds", "commit", "date", "card")
 LABELS = "^(cuda|gpu)$"
+# What ctest prints when a test has ended: its name, how it ended, its seconds.
+ENDED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) [ .]*\**(\w[\w ]*?) +([\d.]+) sec")
 
 
 def rows_of(path):
@@ -46,30 +48,43 @@ def write(path, rows):
 
 
 def result_of(case):
-    """What ctest's report says of a test; of a skipped one with what it printed as the reason."""
+    """What ctest's report says of a test; of a skipped one with what it printed as the reason. What was not built has failed."""
     if case.get("status") == "run":
         return "passed"
-    if case.find("skipped") is None:
-        return "failed"
+    skipped = case.find("skipped")
+    if skipped is None or "executable" in skipped.get("message", ""):
+        return "failed" if skipped is None else "failed: its program is not built"
     why = re.findall(r"(?:^SKIPPED \[\d+\] \S+|^skipped:) (.*)", case.findtext("system-out") or "", re.M)
-    return f"skipped: {why[-1] if why else case.find('skipped').get('message', '')}"
+    return f"skipped: {why[-1] if why else skipped.get('message', '')}"
 
 
 def run_tests(build, commit, words):
+    """Runs the tests, and writes the record as each ends: a machine that is taken away takes no results along."""
     card = subprocess.run(["nvidia-smi", "--query-gpu=name", "--format=csv,noheader"], text=True, stdout=subprocess.PIPE,
                           check=True).stdout.splitlines()[0]
-    rows = rows_of(RECORD)
+    rows, failed, count = rows_of(RECORD), [], 0
+
+    def keep(test, result, seconds):
+        rows[test] = {"test": test, "result": result, "seconds": f"{float(seconds):.0f}", "commit": commit,
+                      "date": datetime.date.today().isoformat(), "card": card}
+        write(RECORD, rows)
+
     with tempfile.TemporaryDirectory() as folder:
         report = pathlib.Path(folder) / "report.xml"
-        subprocess.run(["ctest", "--test-dir", str(build), "-L", LABELS, "--output-junit", str(report),
-                        "--test-output-size-passed", "20000", *words], check=False, stdin=subprocess.DEVNULL)
+        with subprocess.Popen(["ctest", "--test-dir", str(build), "-L", LABELS, "--output-junit", str(report), "--test-output-size-passed", "20000",
+                               *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True) as ctest:
+            for line in ctest.stdout:
+                print(line, end="", flush=True)
+                ended = ENDED.match(line)
+                if ended:
+                    keep(ended[1], {"Passed": "passed", "Skipped": "skipped: no reason yet"}.get(ended[2], "failed"), ended[3])
         cases = xml.etree.ElementTree.parse(report).getroot().findall("testcase") if report.exists() else []
-    for case in cases:
-        rows[case.get("name")] = {"test": case.get("name"), "result": result_of(case), "seconds": f"{float(case.get('time')):.0f}",
-                                  "commit": commit, "date": datetime.date.today().isoformat(), "card": card}
-    write(RECORD, rows)
-    failed = [case.get("name") for case in cases if result_of(case) == "failed"]
-    print(f"{len(cases)} tests, {len(failed)} failed{': ' if failed else ''}{', '.join(failed)}; {RECORD.relative_to(ROOT)}")
+    for case in cases:    # with the reasons why some were skipped
+        keep(case.get("name"), result_of(case), case.get("time"))
+        count += 1
+        if result_of(case).startswith("failed"):
+            failed.append(case.get("name"))
+    print(f"{count} tests, {len(failed)} failed{': ' if failed else ''}{', '.join(failed)}; {RECORD.relative_to(ROOT)}")
     return not cases or bool(failed)
 
 
