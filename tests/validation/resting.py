@@ -6,7 +6,7 @@
 import math
 
 import lmp
-from suite import G, Grain, Seen, case, fly
+from suite import AT_MESHES, G, Grain, Seen, case, fly
 
 
 @case("pressed", "Two grains pressed between two walls (MFiX DEM03)")
@@ -76,3 +76,38 @@ def held_force(setting):
         states = fly(setting, [Grain((0, 0, radius - depth), radius, 2500.0)], (-0.02, 0.02, -0.02, 0.02, -5e-3, 5e-3), setting.floor(law, 0.01), 1e-6, 1,
                      move="move linear 0.0 0.0 0.0 units box")
         yield Seen(f"{name}: force at an overlap of R/100", "N", states[1][0]["fz"], force, of, 1e-12, "round-off of the place over the overlap, 1e-19/1e-5, and some more")
+
+
+@case("bridge", "A liquid bridge that is pulled until it breaks (Willett et al. 2000)", AT_MESHES)
+def bridge(setting):
+    radius, tension, angle, volume, speed, steps = 1e-3, 0.072, 20.0, 1e-12, 0.01, 4000
+    law = f"hooke 1e4 0.0 tangential linear_nohistory 0.0 0.0 damping velocity cohesion capillary {tension!r} {angle!r} NULL {volume!r}"
+    # Between two spheres of this radius; a plane has that of twice the grain's.
+    derjaguin, theta = 2 * radius, math.radians(angle)
+    reach = (1 + theta / 2) * (volume ** (1 / 3) + volume ** (2 / 3) / (10 * derjaguin))
+
+    def pull(gap):
+        p = gap / 2 * math.sqrt(derjaguin / volume)
+        return 2 * math.pi * derjaguin * tension * math.cos(theta) / (1 + 2.1 * p + 10 * p * p)
+
+    dt, depth = 1.1 * reach / speed / steps, 1e-7
+    states = fly(setting, [Grain((0, 0, radius - depth), radius, 2500.0)], (-0.02, 0.02, -0.02, 0.02, -5e-3, 5e-3), setting.floor(law, 0.01), dt, steps, 1,
+                 move=f"move linear 0.0 0.0 {speed!r} units box")
+    seen = {step: (s[0]["z"] - radius, -s[0]["fz"]) for step, s in states.items()}
+    of, places = "Willett et al. 2000, equation 12", "round-off of the place, 1e-19 m, over the gap, and some more"
+    for share in (0.1, 0.3, 0.6, 0.9):
+        step = round(share * steps / 1.1)
+        yield Seen(f"pull at {share:g} of the rupture distance", "N", seen[step][1], pull(step * speed * dt - depth), of, 1e-9, places)
+    last = max(gap for gap, force in seen.values() if force > 0)
+    yield Seen("gap in which it breaks", "m", last, reach, "Willett et al. 2000, equation 15", 1.2 / steps, "a step of the pull, 1.1/4000 of the reach")
+    # The integral of 1/(1 + 2.1 p + 10 p^2).
+    root, per_gap = math.sqrt(40 - 2.1 ** 2), math.sqrt(derjaguin / volume) / 2
+
+    def integral(gap):
+        return 2 / root * math.atan((20 * per_gap * gap + 2.1) / root)
+    first = math.ceil(depth / (speed * dt)) * speed * dt - depth
+    exact = pull(0.0) / per_gap * (integral(reach) - integral(first))
+    pulled = sorted(v for v in seen.values() if v[1] > 0 and v[0] >= 0)
+    work = sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(pulled, pulled[1:]))
+    yield Seen("work of the pull until it breaks", "J", work, exact, "closed form of its integral", 1e-4,
+               "the last step before it breaks, 1/3600 of the way, has a pull of less than a third of the mean")
