@@ -43,7 +43,7 @@ def test_path_of_two_grains(folder, name):
     """A grain is moved towards another one and away, by swings that are no multiples of each other. Forces are those of the oracle but for rounding of
     the overlap, which is that of places of size 1, times the steepest slope over the force."""
     words, law = LAWS[name]
-    steps = 300 if lmp.QUICK else 2000
+    steps = 400 if lmp.QUICK else 2000
     script = lmp.head("-3 3 -3 3 -3 3") + PAIR.format(apart=A + B - 0.02, law=f"{words} {SLIP} damping none") + f"""\
 variable        x equal 0.008*sin(11*step*dt)+0.006*sin(29*step*dt)+0.004*sin(67*step*dt)
 variable        v equal 0.088*cos(11*step*dt)+0.174*cos(29*step*dt)+0.268*cos(67*step*dt)
