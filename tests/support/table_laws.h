@@ -46,6 +46,7 @@ inline Real number_of(const Parameter &p, bool can_be_derived)
                                                       {"power/(length^2 temperature)", 3}};
   if (p.may_be_null && can_be_derived) return NAN;
   if (p.name == std::string("F0")) return 0.5;
+  if (p.name == std::string("delta")) return 0.01;    // a reach that grains leave
   if (p.unit == std::string("force/length") &&
       (p.name == std::string("gamma") || p.name == std::string("K")))
     return 2;    // a pull that lets grains come apart
