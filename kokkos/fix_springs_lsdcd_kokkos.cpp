@@ -56,11 +56,12 @@ void FixSpringsLsdcdKokkos<DeviceType>::need_on_device(int n_atoms)
 }
 
 template <class DeviceType>
-void FixSpringsLsdcdKokkos<DeviceType>::set_laws(int width, bool booked, const std::string &of_laws,
+void FixSpringsLsdcdKokkos<DeviceType>::set_laws(int width, int for_energy,
+                                                 const std::string &of_laws,
                                                  const LawsOfTypes &of_types)
 {
   const bool same = width == law_width && of_laws == kinds;
-  FixSpringsLsdcd::set_laws(width, booked, of_laws, of_types);
+  FixSpringsLsdcd::set_laws(width, for_energy, of_laws, of_types);
   if (!same) on_device = false;
 }
 

@@ -31,7 +31,8 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
   void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &) override;
 
  protected:
-  void set_laws(int width, bool booked, const std::string &kinds, const LawsOfTypes &laws) override;
+  void set_laws(int width, int for_energy, const std::string &kinds,
+                const LawsOfTypes &laws) override;
   bool note_types() override;
   void collect() override;
   void forget() override;

@@ -53,7 +53,7 @@ void PairGranularLsdcdKokkos<DeviceType>::init_style()
           "write 'suffix off' before "
           "pair_style granular/lsdcd, or use granular/lsdcd/kk/host");
   if (springs) static_cast<FixSpringsLsdcdKokkos<DeviceType> *>(springs)->engine = engine.get();
-  engine->set_laws({numbers, law_of, n_types + 1, kept_width(), books,
+  engine->set_laws({numbers, law_of, n_types + 1, kept_width(), kept,
                     springs && static_cast<FixSpringsLsdcdKokkos<DeviceType> *>(springs)->by_law});
 }
 

@@ -135,7 +135,7 @@ int FixSpringsLsdcd::setmask()
 
 // ---- for the pair style ------------------------------------------------------------------
 
-void FixSpringsLsdcd::set_laws(int width, bool booked, const std::string &of_laws,
+void FixSpringsLsdcd::set_laws(int width, int for_energy, const std::string &of_laws,
                                const LawsOfTypes &of_types)
 {
   laws = of_types;
@@ -145,7 +145,8 @@ void FixSpringsLsdcd::set_laws(int width, bool booked, const std::string &of_law
         "the restart file has springs of other contact laws than pair_coeff gives: give those of "
         "the run that wrote it, or begin without springs by a data file (write_data)");
   from_file = false;
-  const int without = width + (booked ? lsdcd::kKeptForces : 0);
+  const bool booked = for_energy > 0;
+  const int without = width + for_energy;
   const bool touch = has_impacts && without == 0;
   const int all = without + (touch ? 1 : 0);
   if (!same) {

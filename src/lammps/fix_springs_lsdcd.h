@@ -65,9 +65,10 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
     std::function<unsigned(int type, int other)> flips;
     std::function<int(int type, int other)> kind;
   };
-  // Sets the laws before a run. `width`: how many numbers laws keep of a pair; 0: none. `books`: pairs keep KeptForces behind these.
-  // `kinds`: of all pairs of types, with a ';' behind each.
-  virtual void set_laws(int width, bool books, const std::string &kinds, const LawsOfTypes &laws);
+  // Sets the laws before a run. `width`: how many numbers laws keep of a pair; 0: none. `for_energy`: how many more each pair keeps
+  // behind these for the energy balance. `kinds`: of all pairs of types, with a ';' behind each.
+  virtual void set_laws(int width, int for_energy, const std::string &kinds,
+                        const LawsOfTypes &laws);
   // Says before set_laws() that impacts are recorded which are faster than this (length/time); 0: none are.
   void record_impacts(double least_speed);
   // Adds the impacts of a step of pairs that has run. Collective.

@@ -330,8 +330,9 @@ void PairGranularLsdcd::set_springs()
       width = std::max(width, 3 + law.n_extra());
     }
   any = any || books || adapts || has_impacts();
+  kept = {width, books ? lsdcd::n_kept_of_pairs(numbers) : 0};
   if (books)
-    for (unsigned &flips : flips_of) flips |= lsdcd::KeptForces::flips() << width;
+    for (unsigned &flips : flips_of) flips |= kept.flips() << width;
   if (any && !springs)
     springs = dynamic_cast<FixSpringsLsdcd *>(
         modify->replace_fix(dummy_id, springs_id + " all " + springs_style()));
@@ -341,7 +342,7 @@ void PairGranularLsdcd::set_springs()
   check_order();
   springs->watches_radii = adapts;
   springs->record_impacts(impacts_asked.least_speed);
-  springs->set_laws(width, books, kinds,
+  springs->set_laws(width, kept.n, kinds,
                     {[this](int i, int j) { return flips_of[law_index(i, j)]; },
                      [this](int i, int j) { return numbers[law_index(i, j)].history_kind(); }});
   double largest = 0;
@@ -725,7 +726,10 @@ void PairGranularLsdcd::compute(int eflag, int vflag)
   record.clear();
   if (evflag) step.record = &record;
   lsdcd::EnergyRows rows;
-  if (books) step.energy = &rows;
+  if (books) {
+    step.energy = &rows;
+    step.kept = kept;
+  }
   lsdcd::run_pairs(step);
   if (books) add_booked(rows, !step.update, step.dt);
   if (has_impacts()) record_impacts(step);

@@ -114,6 +114,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::vector<lsdcd::ContactLaw> numbers;    // of each law
   std::vector<int> law_of;                   // of types i and j at i * (n_types + 1) + j
   bool has_heat = false, books = false;
+  lsdcd::KeptOfPair kept;                  // for the energy balance
   lsdcd::ImpactsSettings impacts_asked;    // by a compute
   bool has_impacts() const { return impacts_asked.least_speed > 0; }
   bool adapts = false;    // there is a fix adapt, which may change radii

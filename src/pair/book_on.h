@@ -57,12 +57,12 @@ struct BookPairs {
     const auto grains = [&] { return grain_pair(s, i, j, s.update); };
     if (!!pair.old) {
       EnergyRows rows;
-      book_old_pair(*law, grains(), pair.old, s.width, !!pair.now, rows);
+      book_old_pair(*law, grains(), pair.old, s.kept, !!pair.now, rows);
       add(with, rows, sum);
     }
     if (!!pair.now) {
       EnergyRows rows;
-      book_new_pair(*law, grains, pair.old, pair.now, s.width, rows);
+      book_new_pair(*law, grains, pair.old, pair.now, s.kept, rows);
       add(with, rows, sum);
     }
     return true;

@@ -17,12 +17,12 @@ void set_book(const ContactLaw &law, PairLaw &out)
     using Law = std::decay_t<decltype(model)>;
     out.booked = LawBytes(model);
     out.book = [](const LawBytes &bytes, const GrainPair &p, const PairNumbers<Real> &old,
-                  const PairNumbers<Real> &now, int width, EnergyRows &rows) {
+                  const PairNumbers<Real> &now, const KeptOfPair &place, EnergyRows &rows) {
       const Law &of_pair = bytes.as<Law>();
-      if (!!old) book_old_pair(of_pair, p, old, width, !!now, rows);
+      if (!!old) book_old_pair(of_pair, p, old, place, !!now, rows);
       if (!!now)
         book_new_pair(
-            of_pair, [&p] { return p; }, old, now, width, rows);
+            of_pair, [&p] { return p; }, old, now, place, rows);
     };
   });
 }
@@ -46,7 +46,7 @@ void book_pairs(const PairJob &job)
       EnergyRows rows;
       law.book(law.booked, grain_pair(job, i, j, job.update),
                touched ? before.of(old) : PairNumbers<Real>{nullptr, 0},
-               touches ? now.of(pair) : PairNumbers<Real>{nullptr, 0}, now.width(), rows);
+               touches ? now.of(pair) : PairNumbers<Real>{nullptr, 0}, job.kept, rows);
       const Real share =
           (job.both_sides || j < job.n_own ? 1 : 0.5) * job.factor[other >> list.factor_shift & 3];
       for (int row = 0; row < kEnergyRows; row++) job.energy->of[row] += share * rows.of[row];

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "engine/step/contact_energy.h"
+#include "pair/kept_of_pair.h"
 #include "pair/pair_kernel.h"
 
 namespace lsdcd {
@@ -59,31 +60,13 @@ LSDCD_FN void add_pair_half(const Law &, const PairMotion &m, const KeptForces &
                  cross((m.slip_i - m.arm_i) * m.omega_i + (m.slip_j - m.arm_j) * m.omega_j, m.n));
 }
 
-// Returns the KeptForces of a pair, which follow its springs.
-template <class From>
-LSDCD_FN KeptForces read_kept(const From &numbers, int at)
-{
-  Real all[kKeptForces];
-  for (int k = 0; k < kKeptForces; k++) all[k] = numbers[at + k];
-  KeptForces kept;
-  memcpy(&kept, all, sizeof kept);
-  return kept;
-}
-template <class To>
-LSDCD_FN void write_kept(const KeptForces &kept, const To &numbers, int at)
-{
-  Real all[kKeptForces];
-  memcpy(all, &kept, sizeof kept);
-  for (int k = 0; k < kKeptForces; k++) numbers[at + k] = all[k];
-}
-
 // Adds the second half of what a pair did in the last step, of which it has kept `numbers`. `goes_on`: it still touches; otherwise
 // it has parted.
 template <class Law>
 LSDCD_FN void book_old_pair(const Law &law, const GrainPair &p, const PairNumbers<Real> &numbers,
-                            int width, bool goes_on, EnergyRows &rows)
+                            const KeptOfPair &place, bool goes_on, EnergyRows &rows)
 {
-  const KeptForces old = read_kept(numbers, width - kKeptForces);
+  const KeptForces old = place.read(numbers);
   rows[EnergyRow::seen] += old.held;
   if (!p.update) return;
   const PairMotion m = pair_motion(law, p, p.offset - p.dt * p.velocity);
@@ -149,11 +132,11 @@ struct HeardLaw : Law {
 template <class Law, class MakePair>
 LSDCD_FN void book_new_pair(const Law &law, const MakePair &make_pair,
                             const PairNumbers<Real> &old_numbers, const PairNumbers<Real> &numbers,
-                            int width, EnergyRows &rows)
+                            const KeptOfPair &place, EnergyRows &rows)
 {
-  const int of_law = width - kKeptForces;    // 0: laws keep nothing
+  // Laws that keep nothing have no numbers before these.
   const ContactMemory<Law::kExtra> begun =
-      read_memory(law, of_law > 0 ? old_numbers : PairNumbers<Real>{nullptr, 0});
+      read_memory(law, place.first > 0 ? old_numbers : PairNumbers<Real>{nullptr, 0});
   ContactMemory<Law::kExtra> memory = begun;
   PairContact c;
   FullForce f;
@@ -163,7 +146,7 @@ LSDCD_FN void book_new_pair(const Law &law, const MakePair &make_pair,
   const ForceParts parts = law.parts(c, begun, memory, f);
   KeptForces old = {};
   if (!!old_numbers) {
-    old = read_kept(old_numbers, of_law);
+    old = place.read(old_numbers);
     const auto turn = [&](const SpringPart &spring, Vec3 &h) {
       h = turned_as(spring, h, c.normal);
     };
@@ -176,7 +159,7 @@ LSDCD_FN void book_new_pair(const Law &law, const MakePair &make_pair,
   }
   KeptForces now = kept_of(law, c.normal, f, parts, slaves_spring(c, parts, old), 1, 0, 0);
   now.held = held_of(law, c, f, memory, 1, now);
-  write_kept(now, numbers, of_law);
+  place.write(now, numbers);
   rows[EnergyRow::held] += now.held;
   if (!c.update) return;
 

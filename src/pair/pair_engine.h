@@ -7,6 +7,7 @@
 #include "base/strided_view.h"
 #include "engine/resident_rows.h"
 #include "law/contact_law.h"
+#include "pair/kept_of_pair.h"
 #include "pair/partners.h"
 
 #include <cstddef>
@@ -79,7 +80,7 @@ struct PairLaws {
   std::vector<int> law_of;
   int n_types = 0;        // one more than the number of types
   int width = 0;          // number of values that a pair keeps
-  bool books = false;     // the last values are KeptForces, and energy is recorded
+  KeptOfPair kept;        // the last of these values; none: energy is not recorded
   bool by_law = false;    // laws keep values of several kinds
 };
 

@@ -92,7 +92,9 @@ class PairEngineOn : public PairEngine {
   {
     if (given.width != width_) forget();
     width_ = given.width;
-    of_law_ = given.width - (given.books ? kKeptForces : 0);
+    kept_ = given.kept;
+    const bool books = kept_.n > 0;
+    of_law_ = given.width - kept_.n;
     by_law_ = given.by_law;
     n_types_ = given.n_types;
     laws_.clear();
@@ -114,9 +116,8 @@ class PairEngineOn : public PairEngine {
       bytes.push_back(laws_.back().law);
       reach.push_back(law.reach());
       history.push_back(law.history_kind());
-      flips.push_back(law.flips() |
-                      (given.books ? KeptForces::flips() << (given.width - kKeptForces) : 0));
-      if (given.books) {
+      flips.push_back(law.flips() | (books ? kept_.flips() << kept_.first : 0));
+      if (books) {
         const PairBookOn<B> book = pair_book_on<B>(law);
         const auto of = std::find_if(books_.begin(), books_.end(), [&](const PairBookOn<B> &other) {
           return other.run == book.run;
@@ -148,6 +149,7 @@ class PairEngineOn : public PairEngine {
     s.now = next.view(width_);
     if (width_ > 0 && has_last_) s.old = last.view(width_);
     s.width = width_;
+    s.kept = kept_;
     s.step = kStep;
     s.n_pairs = n_pairs_.data() + turn_;
     s.n_pairs_next = n_pairs_.data() + 1 - turn_;
@@ -411,6 +413,7 @@ class PairEngineOn : public PairEngine {
   Array<LawReach> reach_;
   Array<std::uint32_t> flips_;
   int n_types_ = 0, width_ = 0, of_law_ = 0;
+  KeptOfPair kept_;
   bool by_law_ = false;
   bool beyond_ = false;    // does adhesion act beyond contact?
 

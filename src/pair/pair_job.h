@@ -8,6 +8,7 @@
 #include "base/vec3.h"
 #include "engine/results/step_results.h"
 #include "engine/step/compiled_law.h"
+#include "pair/kept_of_pair.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -145,7 +146,7 @@ struct PairLaw {
   // their forces.
   LawBytes booked;
   void (*book)(const LawBytes &, const GrainPair &, const PairNumbers<Real> &old,
-               const PairNumbers<Real> &now, int width, EnergyRows &);
+               const PairNumbers<Real> &now, const KeptOfPair &, EnergyRows &);
 };
 
 struct PairJob {
@@ -174,9 +175,10 @@ struct PairJob {
   Real dt;
   bool update;    // false: springs act but do not move (setup)
 
-  // Null: energy is not recorded. Otherwise laws have `book`, and the last numbers of a pair in the history are KeptForces. The energy
+  // Null: energy is not recorded. Otherwise laws have `book`, and pairs keep for it what `kept` says. The energy
   // of pairs is added to it; for a pair with a copy only half of it, unless both_sides.
   EnergyRows *energy = nullptr;
+  KeptOfPair kept;
   std::vector<RecordedPair> *record = nullptr;    // null: forces are not asked for one by one
 };
 

@@ -34,6 +34,7 @@ struct PairStepView : PairInput {
   int words = 0;    // number of words of a row
   TouchingPairs now, old;
   int width = 0;
+  KeptOfPair kept;      // for the energy balance
   unsigned step = 1;    // see kGpuPairStep
   std::uint32_t *n_pairs = nullptr,
                 *n_pairs_next = nullptr;    // count of places of this step, and of the next one
