@@ -13,9 +13,13 @@ GRANULAR = ("granular hertz/material 65000 0.7 0.25 tangential mindlin NULL 1.0 
             "rolling sds 2000 20 0.1 twisting marshall damping coeff_restitution")
 # The same without rolling and twisting, which grains have among themselves, too, where a benchmark says "mindlin".
 MINDLIN = "hertz/material 65000 0.7 0.25 tangential mindlin NULL 1.0 0.5 damping coeff_restitution"
+SPRING = "tangential linear_history 2000 0 0.5"
+# Laws of granular/lsdcd, and with the same words of granular walls.
+GRANULAR_GRAINS = {"mindlin": MINDLIN, "hysteretic": f"hysteretic 4000 0.7 {SPRING}", "eepa": f"eepa 4000 0.7 0.5 1 1 1 0 {SPRING}",
+                   "capillary": f"{MINDLIN} cohesion capillary 1 20 NULL 1e-4"}
 # Of grains: {name: (pair style and coefficients, the same law as a wall has it)}
 GRAINS = {"hooke": (f"pair_style gran/{LAW}\npair_coeff * *", LAW),
-          "mindlin": (f"pair_style granular/lsdcd\npair_coeff * * {MINDLIN}", f"granular {MINDLIN}")}
+          **{name: (f"pair_style granular/lsdcd\npair_coeff * * {law}", f"granular {law}") for name, law in GRANULAR_GRAINS.items()}}
 SPEED = 20.0    # along the wall
 CUBE = math.sqrt(2)    # edge of the lattice's cube of 4 sites, neighbours 1 apart
 PLANES = 40    # of spheres on a floor

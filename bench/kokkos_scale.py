@@ -109,7 +109,7 @@ OF_SCALE = [
     ("--side", dict(type=int, default=292, metavar="N", help="N^3 spheres for each process (default %(default)s)")),
     ("--scenes", dict(nargs="+", choices=SCENES, default=["box"], help="(default: box)")),
     ("--grains", dict(nargs="+", choices=GRAINS, default=["hooke"], help="the law of grains and of the wall: gran/hooke/history of "
-                      "LAMMPS, or Hertz and Mindlin of granular/lsdcd (default: hooke)")),
+                      "LAMMPS, or one of granular/lsdcd: mindlin is Hertz and Mindlin, capillary the same with bridges (default: hooke)")),
     ("--settle", dict(type=int, default=1000, metavar="N", help="steps before those of a drum and a hopper (default %(default)s)")),
     ("--cells", dict(type=int, nargs="+", default=[WALL_CELLS], metavar="N",
                      help="the mesh of the box has 12 N^2 triangles (default: %(default)s)"))]
