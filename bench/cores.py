@@ -234,7 +234,8 @@ def filling(case, name):
             text += forces(case, SOFTER[0], lid) + f"run {math.ceil(seconds / soft)}\n" + forget
     for softer in SOFTER[1:]:
         text += forces(case, softer, lid=case.flow == 0) + f"run {STIFFEN_STEPS}\n" + (forget if softer != 1 else "")
-    return text + case.then + f"write_data {name}.data nocoeff\n"
+    # delete_atoms counts atoms anew: write_data names those that were there at first, also where a soft grain has left the box.
+    return text + case.then + f"group lost empty\ndelete_atoms group lost\nwrite_data {name}.data nocoeff\n"
 
 
 def balance_words(balance, weight, ab):

@@ -159,12 +159,13 @@ def cores_tried(rows):
         return NOT_MEASURED
     most = max(int(r["ranks"]) for r in rows)
     mine = [r for r in rows if r["of"] == "lsdcd" and int(r["ranks"]) * int(r["threads"]) == most]
-    orders = list(dict.fromkeys(r["order"].replace(", lists multi, all", "") for r in mine))
+    beds = [bed for bed in CORE_CASES if any(r["bed"] == bed for r in mine)]
+    orders = list(dict.fromkeys(r["order"].replace(", lists multi, all", "") for r in mine if r["bed"] in beds))
 
-    def cells(order):
-        of = {r["bed"]: r for r in mine if r["order"].replace(", lists multi, all", "") == order}
-        return [order, *[number(of[bed]["median_ms"]) if bed in of else "" for bed in CORE_CASES]]
-    return table(orders, ["with", *[f"{bed}, ms" for bed in CORE_CASES]], cells)
+    def cells(order):    # with the lists that take less time
+        times = {bed: [float(r["median_ms"]) for r in mine if r["bed"] == bed and r["order"].replace(", lists multi, all", "") == order] for bed in beds}
+        return [order, *[number(f"{min(times[bed]):.6g}") if times[bed] else "" for bed in beds]]
+    return table(orders, ["with", *[f"{bed}, ms" for bed in beds]], cells)
 
 
 def cores_growth(rows):
@@ -179,8 +180,9 @@ def cores_growth(rows):
         row = next((r for r in mine if (r["bed"], r["ranks"]) == (bed, str(n)) and r["order"].startswith(words)), None)
         return f"{100 * alone[bed] / n / float(row['median_ms']):.0f} %" if row and bed in alone else ""
     ways = (("as it is", "fix balance none"), ("balanced", "fix balance shift xyz, weight neigh"))
-    heads = ["processes", *[f"{bed}, {how}" for bed in CORE_CASES for how, _ in ways]]
-    return table(ranks, heads, lambda n: [str(n), *[cell(bed, n, words) if n > 1 or words.endswith("none") else "" for bed in CORE_CASES for _, words in ways]])
+    beds = [bed for bed in CORE_CASES if bed in alone]
+    heads = ["processes", *[f"{bed}, {how}" for bed in beds for how, _ in ways]]
+    return table(ranks, heads, lambda n: [str(n), *[cell(bed, n, words) if n > 1 or words.endswith("none") else "" for bed in beds for _, words in ways]])
 
 
 def cores_wide(rows):
