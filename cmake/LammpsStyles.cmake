@@ -4,7 +4,7 @@
 # What a plugin and a LAMMPS with the styles compiled in share.
 
 # The sources of the styles, in src/lammps.
-set(LSDCD_STYLE_SOURCES compute_collide_lsdcd.cpp compute_collide_lsdcd_bodies.cpp compute_energy_lsdcd.cpp compute_impacts_lsdcd.cpp
+set(LSDCD_STYLE_SOURCES clump_templates.cpp compute_collide_lsdcd.cpp compute_collide_lsdcd_bodies.cpp compute_energy_lsdcd.cpp compute_impacts_lsdcd.cpp
   fix_insert_lsdcd.cpp
   fix_massflow_lsdcd.cpp fix_massflow_lsdcd_atoms.cpp fix_massflow_lsdcd_output.cpp fix_springs_lsdcd.cpp fix_wall_lsdcd.cpp fix_wall_lsdcd_exchange.cpp
   host_atoms.cpp host_box.cpp host_pairs.cpp

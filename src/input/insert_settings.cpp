@@ -23,7 +23,9 @@ const char *const kInsertSyntax =
     "SY "
     "SZ [block N1 N2] [spread LO HI] [fraction F | massfraction F] [shape ...] [orient random | AX "
     "AY "
-    "AZ DEGREES], dens RHO | LO HI, [massrate R | numberrate R] [mass M | number N] [type T] [vel "
+    "AZ DEGREES], dens RHO | LO HI, or mol ID rigid ID [fraction F ... | massfraction F ...] "
+    "[orient "
+    "...], [massrate R | numberrate R] [mass M | number N] [type T] [vel "
     "X Y Z | normal V] "
     "[jitter [gaussian] V | X Y Z] [temperature T] [wall all | none | ID] [attempts N] [every "
     "N] [seed N]";
@@ -62,6 +64,24 @@ void read_sizes(Tokens &w, GrainRecipe &grains)
     grains.sizes = sizes;
   else
     grains.set_mass_shares(sizes);
+}
+
+void read_molecules(Tokens &w, InsertSettings &s)
+{
+  w.set_context("mol", "mol ID [fraction F1 F2 ... | massfraction F1 F2 ...]");
+  if (w.done()) w.fail("the ID of a molecule template is missing");
+  s.molecules = w.take();
+  if (w.done()) return;
+  s.shares_are_by_mass = w.peek() == "massfraction";
+  if (w.peek() != "fraction" && !s.shares_are_by_mass) return;
+  w.take();
+  do {
+    s.shares.push_back(w.number("F", kAboveZero, 1));
+  } while (w.number_follows());
+  Real sum = 0;
+  for (const Real share : s.shares) sum += share;
+  if (std::fabs(sum - 1) > 1e-3)
+    w.fail("the fractions add up to " + number_text(sum) + ", not to 1");
 }
 
 // Kinds of grains as they are read; `sum` is of their shares.
@@ -193,6 +213,12 @@ bool read_word(const std::string &word, Tokens &w, InsertSettings &s)
     s.region = w.take();
   } else if (word == "diam") {
     read_sizes(w, s.plan.grains);
+  } else if (word == "mol") {
+    read_molecules(w, s);
+  } else if (word == "rigid") {
+    w.set_context("rigid", "rigid ID");
+    if (w.done()) w.fail("the ID of a rigid fix is missing");
+    s.rigid = w.take();
   } else if (word == "orient") {
     read_orientation(w, s.plan.grains);
   } else if (word == "dens") {
@@ -264,9 +290,14 @@ void check(Tokens &w, const InsertSettings &s)
   if (s.face.file.empty() == s.region.empty())
     w.fail(s.region.empty() ? "mesh FILE or region ID is missing"
                             : "give mesh FILE or region ID, not both");
-  if (s.plan.grains.largest <= 0) w.fail("diam or shape is missing");
-  if (s.plan.grains.density_hi <= 0) w.fail("dens is missing");
-  check_masses(w, s.plan.grains);
+  if (s.has_clumps()) {
+    if (s.rigid.empty())
+      w.fail("rigid is missing: give the ID of the fix rigid/small that moves the clumps");
+  } else {
+    if (s.plan.grains.largest <= 0) w.fail("diam, shape or mol is missing");
+    if (s.plan.grains.density_hi <= 0) w.fail("dens is missing");
+    check_masses(w, s.plan.grains);
+  }
   if (feed.kind == FeedSettings::at_once && feed.mass <= 0 && feed.number == 0)
     w.fail("the amount is missing: give massrate, numberrate, mass or number");
   if (feed.mass > 0 && feed.number > 0)
@@ -298,14 +329,19 @@ InsertSettings parse_insert(const std::vector<std::string> &tokens)
   const auto tells = [&seen](const char *word) {
     return std::find(seen.begin(), seen.end(), word) != seen.end();
   };
+  w.set_context("fix insert/lsdcd", kInsertSyntax);
+  if (tells("mol"))
+    for (const char *other : {"diam", "shape", "dens", "type"})
+      if (tells(other))
+        w.fail("mol has sizes, masses and types of its own: leave " + std::string(other) + " out");
+  if (tells("rigid") && !tells("mol"))
+    w.fail("rigid is of clumps: give mol ID, or leave rigid out");
   if (tells("diam") && tells("shape")) {
-    w.set_context("fix insert/lsdcd", kInsertSyntax);
     w.fail("diam is of spheres and shape of other grains: leave one out; a ball among them is a "
            "shape with three equal lengths");
   }
-  if (tells("orient") && !tells("shape")) {
-    w.set_context("fix insert/lsdcd", kInsertSyntax);
-    w.fail("orient turns grains with a shape: leave it out");
+  if (tells("orient") && !tells("shape") && !tells("mol")) {
+    w.fail("orient turns grains with a shape and clumps: leave it out");
   }
   if (tells("shape")) kinds.set(w, settings.plan.grains);
   check(w, settings);

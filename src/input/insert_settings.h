@@ -22,7 +22,13 @@ struct InsertSettings {
   Vec3 velocity = {0, 0, 0};
   bool has_temperature = false;
   Real temperature = 0;
-  bool has_shapes() const { return !plan.grains.kinds.empty(); }
+  bool has_shapes() const { return !plan.grains.kinds.empty() && !has_clumps(); }
+  // Clumps: ID of a molecule template, whose molecules become kinds of grains, the fix that moves them, and the share of each molecule;
+  // none: equal ones.
+  std::string molecules, rigid;
+  std::vector<Real> shares;
+  bool shares_are_by_mass = false;
+  bool has_clumps() const { return !molecules.empty(); }
   Real depth = 0;           // length; how far in front of the face grains are put
   bool all_walls = true;    // grains keep off these fixes, or off those named
   std::vector<std::string> walls;

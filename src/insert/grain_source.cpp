@@ -3,6 +3,8 @@
 
 #include "insert/grain_source.h"
 
+#include "clump/sphere_union.h"
+
 #include <algorithm>
 
 namespace lsdcd {
@@ -25,9 +27,19 @@ Real mean_cube(Real least, Real most)
 
 }    // namespace
 
-Real GrainKind::mean_volume() const
+Real GrainKind::farthest() const
 {
-  return volume(shape) * mean_cube(least, most);
+  return is_clump() ? radius_around(balls, {0, 0, 0}) : shape.farthest;
+}
+
+Real GrainKind::solid() const
+{
+  return is_clump() ? clump_mass : volume(shape);
+}
+
+Real GrainKind::mean_solid() const
+{
+  return solid() * mean_cube(least, most);
 }
 
 // A grain of mass m is one of share / m grains.
@@ -44,12 +56,12 @@ void GrainRecipe::set_kinds(const std::vector<GrainKind> &of, bool is_by_mass)
   kinds = of;
   sizes.clear();
   Real sum = 0;
-  for (GrainKind &kind : kinds) sum += kind.share /= is_by_mass ? kind.mean_volume() : 1;
-  smallest = largest = 2 * kinds[0].least * kinds[0].shape.farthest;
+  for (GrainKind &kind : kinds) sum += kind.share /= is_by_mass ? kind.mean_solid() : 1;
+  smallest = largest = 2 * kinds[0].least * kinds[0].farthest();
   for (GrainKind &kind : kinds) {
     kind.share /= sum;
-    smallest = std::min(smallest, 2 * kind.least * kind.shape.farthest);
-    largest = std::max(largest, 2 * kind.most * kind.shape.farthest);
+    smallest = std::min(smallest, 2 * kind.least * kind.farthest());
+    largest = std::max(largest, 2 * kind.most * kind.farthest());
   }
 }
 
@@ -57,7 +69,7 @@ Real GrainRecipe::mean_mass() const
 {
   if (!kinds.empty()) {
     Real solid = 0;
-    for (const GrainKind &kind : kinds) solid += kind.share * kind.mean_volume();
+    for (const GrainKind &kind : kinds) solid += kind.share * kind.mean_solid();
     return solid * (density_lo + density_hi) / 2;
   }
   Real volume = 0;    // of the cube around it
@@ -90,27 +102,50 @@ std::vector<Real> GrainSource::numbers() const
                            recipe_.density_lo, recipe_.density_hi};
   for (const GrainRecipe::Size &size : recipe_.sizes)
     all.insert(all.end(), {size.diameter, size.share});
-  if (!has_shapes()) return all;
+  if (!has_kinds()) return all;
   const Quaternion &q = recipe_.turn;
   all.insert(all.end(), {Real(recipe_.is_turned_at_random), q.w, q.v.x, q.v.y, q.v.z});
-  for (const GrainKind &k : recipe_.kinds)
+  for (const GrainKind &k : recipe_.kinds) {
+    if (k.is_clump()) {
+      all.insert(all.end(), {k.clump_mass, k.share, static_cast<Real>(k.balls.size())});
+      for (const Ball &ball : k.balls)
+        all.insert(all.end(), {ball.centre.x, ball.centre.y, ball.centre.z, ball.radius});
+      continue;
+    }
     all.insert(all.end(), {k.shape.half.x, k.shape.half.y, k.shape.half.z, k.shape.n1, k.shape.n2,
                            k.least, k.most, k.share});
+  }
   return all;
 }
 
 Grain GrainSource::grain(std::int64_t number) const
 {
   RandomStream random({seed_, kSize, number});
-  if (!has_shapes()) {
+  if (!has_kinds()) {
     const Real radius = diameter(random.uniform()) / 2;
     return {number, radius, random.uniform(recipe_.density_lo, recipe_.density_hi)};
   }
   const std::size_t i = kind(random.uniform());
   const GrainKind &of = recipe_.kinds[i];
-  const Real radius = random.uniform(of.least, of.most) * of.shape.farthest;
+  const Real farthest = of.farthest(), radius = random.uniform(of.least, of.most) * farthest;
   return {number, radius, random.uniform(recipe_.density_lo, recipe_.density_hi), i,
-          volume(of.shape) / cube(of.shape.farthest)};
+          of.solid() / cube(farthest)};
+}
+
+Real GrainSource::largest_sphere() const
+{
+  if (!has_clumps()) return largest_radius();
+  Real most = 0;
+  for (const GrainKind &kind : recipe_.kinds)
+    for (const Ball &ball : kind.balls) most = std::max(most, ball.radius);
+  return most;
+}
+
+std::vector<Ball> GrainSource::balls(const Grain &grain, const Quaternion &turn) const
+{
+  std::vector<Ball> turned = recipe_.kinds[grain.kind].balls;
+  for (Ball &ball : turned) ball.centre = rotate(turn, ball.centre);
+  return turned;
 }
 
 Superellipsoid GrainSource::shape(const Grain &grain) const

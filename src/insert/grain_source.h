@@ -6,6 +6,7 @@
 
 #include "base/quaternion.h"
 #include "base/vec3.h"
+#include "clump/ball.h"
 #include "insert/random_stream.h"
 #include "shape/superellipsoid.h"
 
@@ -18,32 +19,43 @@ namespace lsdcd {
 constexpr Real kBallVolume = 4.0 / 3 * kPi;    // over the cube of the radius
 
 struct Grain {
-  std::int64_t number;        // from 0
-  Real radius, density;       // of a grain with a shape: the radius of the sphere around it
+  std::int64_t number;    // from 0
+  Real radius,
+      density;    // of a grain with a shape and of a clump: the radius of the sphere around it
   std::size_t kind = 0;       // index of GrainRecipe::kinds
   Real bulk = kBallVolume;    // volume over the cube of the radius
 
   Real mass() const { return bulk * radius * radius * radius * density; }
 };
 
-// A shape of grains that are no spheres. All lengths of a grain are those of the kind times a factor, which is uniform between two.
+// Grains that are no spheres: of a shape, all of whose lengths are multiplied by a factor that is uniform between two, or clumps of
+// spheres, which are all alike.
 struct GrainKind {
   Superellipsoid shape;
   Real least = 1, most = 1;    // the factor
   Real share = 1;              // of all grains by number; shares add up to 1
+  // Of a clump: its spheres about the centre of mass, and its mass. Empty: the kind has a shape.
+  std::vector<Ball> balls = {};
+  Real clump_mass = 0;
 
-  // Returns the mean volume of its grains.
-  Real mean_volume() const;
+  bool is_clump() const { return !balls.empty(); }
+  // Returns the radius of the sphere around a grain at the factor 1. That of a clump is about its centre of mass.
+  Real farthest() const;
+  // Returns mass over density of a grain at the factor 1: its volume, or the mass of a clump, whose density counts as 1.
+  Real solid() const;
+  // Returns the mean of solid() over its grains.
+  Real mean_solid() const;
 };
 
 struct GrainRecipe {
   struct Size {
     Real diameter, share;    // of all grains by number; shares add up to 1
   };
-  std::vector<Size> sizes;            // empty: uniform between the next two
-  Real smallest = 0, largest = 0;     // diameters, of the spheres around grains with a shape
-  std::vector<GrainKind> kinds;       // empty: spheres of these sizes
-  bool is_turned_at_random = true;    // grains with a shape; else they have the next turn
+  std::vector<Size> sizes;           // empty: uniform between the next two
+  Real smallest = 0, largest = 0;    // diameters, of the spheres around grains with a shape
+  std::vector<GrainKind>
+      kinds;    // empty: spheres of these sizes; else all have shapes, or all are clumps
+  bool is_turned_at_random = true;    // grains of kinds; else they have the next turn
   Quaternion turn;                    // from the axes of a grain to the box
   Real density_lo = 0, density_hi = 0;
   // Velocity: the largest change of each component, or its standard deviation.
@@ -74,9 +86,14 @@ class GrainSource {
   Grain grain(std::int64_t number) const;
   Vec3 velocity_jitter(std::int64_t number) const;
 
-  bool has_shapes() const { return !recipe_.kinds.empty(); }
+  bool has_kinds() const { return !recipe_.kinds.empty(); }
+  bool has_clumps() const { return has_kinds() && recipe_.kinds[0].is_clump(); }
+  // Returns the largest radius of spheres by which grains are kept apart: those of clumps, or those around grains.
+  Real largest_sphere() const;
   // Returns the shape of a grain, of a source that has shapes.
   Superellipsoid shape(const Grain &grain) const;
+  // Returns the spheres of a clump about its centre of mass, turned.
+  std::vector<Ball> balls(const Grain &grain, const Quaternion &turn) const;
   // Returns how a grain is turned: the same for all, or uniform among all rotations (Shoemake 1992).
   Quaternion turn(RandomStream &random) const;
 

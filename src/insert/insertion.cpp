@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace lsdcd {
 
@@ -105,17 +106,20 @@ bool Insertion::place_in_order(const std::vector<std::size_t> &order, std::int64
 PackedSphere Insertion::packed(const Grain &grain, const Vec3 &at, const Quaternion &turn,
                                Real touch_radius) const
 {
-  if (!source_.has_shapes()) return {at, grain.radius};
-  return {at, grain.radius,
-          std::make_shared<const PackedShape>(
-              PackedShape{place_grain(source_.shape(grain), at, turn), touch_radius})};
+  if (!source_.has_kinds()) return {at, grain.radius};
+  PackedShape shape;
+  if (source_.has_clumps())
+    shape.balls = source_.balls(grain, turn);
+  else
+    shape = {place_grain(source_.shape(grain), at, turn), touch_radius};
+  return {at, grain.radius, std::make_shared<const PackedShape>(std::move(shape))};
 }
 
 bool Insertion::finds_place(std::size_t i, std::int64_t step, InsertionSite &site,
                             Attempt &attempt) const
 {
   const Grain &grain = owed_[i];
-  const Real touch = source_.has_shapes() ? site.touch_radius(grain) : 0;
+  const Real touch = source_.has_kinds() ? site.touch_radius(grain) : 0;
   RandomStream random({plan_.seed, kPlaces, grain.number, step});
   for (int k = 0; k < plan_.attempts; k++) {
     Vec3 at = {0, 0, 0};
@@ -123,7 +127,7 @@ bool Insertion::finds_place(std::size_t i, std::int64_t step, InsertionSite &sit
       attempt.refused.no_place++;
       continue;
     }
-    const Quaternion turn = source_.has_shapes() ? source_.turn(random) : Quaternion();
+    const Quaternion turn = source_.has_kinds() ? source_.turn(random) : Quaternion();
     const PackedSphere here = packed(grain, at, turn, touch);
     if (attempt.packing.overlaps(here)) {
       attempt.refused.grains++;
@@ -203,6 +207,7 @@ State Insertion::state(std::int64_t step) const
   for (const Grain &grain : owed_) s.grains.owed.push_back(grain.number);
   s.refused = refused_;
   s.last_id = last_id_;
+  s.last_molecule = last_molecule_;
   return s.blocks();
 }
 
@@ -215,6 +220,7 @@ bool Insertion::restore(const Real *numbers, std::size_t n, std::int64_t step)
   schedule_.restore(s.schedule, step);
   refused_ = s.refused;
   last_id_ = s.last_id;
+  last_molecule_ = s.last_molecule;
   inserted_mass_ = g.inserted.mass;
   next_number_ = g.next_number;
   owed_.clear();

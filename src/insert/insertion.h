@@ -85,6 +85,9 @@ class Insertion {
   // The highest ID that the host has given to a grain, so that none gets that of one that has gone; 0: none yet.
   std::int64_t last_id() const { return last_id_; }
   void note_id(std::int64_t id) { last_id_ = id; }
+  // The highest ID that the host has given to the molecule of a clump; 0: none yet.
+  std::int64_t last_molecule() const { return last_molecule_; }
+  void note_molecule(std::int64_t id) { last_molecule_ = id; }
   // Is more in than the total that is asked for?
   bool is_past_total() const;
 
@@ -123,7 +126,7 @@ class Insertion {
   std::int64_t wait_ = 1, retry_step_ = 0;    // for owed grains
   Real inserted_mass_ = 0;
   Refused refused_;
-  std::int64_t last_id_ = 0;
+  std::int64_t last_id_ = 0, last_molecule_ = 0;
   std::int64_t next_step_ = 0;
 };
 

@@ -52,6 +52,7 @@ State InsertionState::blocks() const
   all.add("grains", 1, grains);
   all.add("refused", 1, refused);
   if (last_id > 0) all.add("last ID", 1, last_id);
+  if (last_molecule > 0) all.add("last molecule", 1, last_molecule);
   return all;
 }
 
@@ -64,6 +65,7 @@ InsertionState InsertionState::from(const Real *numbers, std::size_t n)
   all.read("grains", 1, s.grains);
   all.read("refused", 1, s.refused);
   all.find("last ID", 1, s.last_id);
+  all.find("last molecule", 1, s.last_molecule);
   if (!all.unread().empty())
     throw StateError("the data of the insertion have " + all.unread() +
                      ", which this version does not know");

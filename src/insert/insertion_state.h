@@ -38,7 +38,7 @@ struct InsertionState {
   FeedState schedule;
   Grains grains;
   Refused refused;
-  std::int64_t last_id = 0;    // 0: none was given
+  std::int64_t last_id = 0, last_molecule = 0;    // 0: none was given
 
   State blocks() const;
   // Throws StateError.

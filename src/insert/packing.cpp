@@ -39,6 +39,21 @@ bool shapes_overlap(const PackedSphere &a, const PackedSphere &b)
   return !are_apart(placed(a), placed(b));
 }
 
+bool is_clump(const PackedSphere &grain)
+{
+  return grain.shape && !grain.shape->balls.empty();
+}
+
+// Calls act(sphere) with each sphere of a clump, and with a grain that is none, and returns whether a call did: it ends there.
+template <class Act>
+bool any_part(const PackedSphere &grain, const Act &act)
+{
+  if (!is_clump(grain)) return act(grain);
+  for (const Ball &ball : grain.shape->balls)
+    if (act(PackedSphere{grain.at + ball.centre, ball.radius})) return true;
+  return false;
+}
+
 }    // namespace
 
 std::vector<PackedSphere> images_in(const PackedSphere &sphere, const Box &zone, Real largest,
@@ -72,13 +87,14 @@ std::vector<PackedSphere> images_in(const PackedSphere &sphere, const Box &zone,
 // Cells are as wide as two spheres can be apart and touch: those of a point and around it hold all that a
 // grain there can overlap.
 Packing::Packing(const std::vector<PackedSphere> &there, const Box &zone, Real largest,
-                 const PeriodicBox &box) :
+                 const PeriodicBox &box, Real largest_sphere) :
     zone_(zone),
     largest_(largest), box_(box)
 {
-  Real widest = largest;
+  const Real part = largest_sphere > 0 ? largest_sphere : largest;
+  Real widest = part;
   for (const PackedSphere &sphere : there) widest = std::max(widest, sphere.radius);
-  cell_ = 1.001 * (widest + largest);
+  cell_ = 1.001 * (widest + part);
   for (const PackedSphere &sphere : there) list(sphere);
 }
 
@@ -104,10 +120,18 @@ void Packing::list(const PackedSphere &sphere)
 
 void Packing::add(const PackedSphere &grain)
 {
-  for (const PackedSphere &image : images_in(grain, zone_, largest_, box_)) list(image);
+  any_part(grain, [this](const PackedSphere &part) {
+    for (const PackedSphere &image : images_in(part, zone_, largest_, box_)) list(image);
+    return false;
+  });
 }
 
 bool Packing::overlaps(const PackedSphere &grain) const
+{
+  return any_part(grain, [this](const PackedSphere &part) { return meets(part); });
+}
+
+bool Packing::meets(const PackedSphere &grain) const
 {
   for (int i = -1; i <= 1; i++)
     for (int j = -1; j <= 1; j++)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "box/periodic_box.h"
+#include "clump/ball.h"
 #include "shape/placed_grain.h"
 
 #include <cstdint>
@@ -20,6 +21,8 @@ struct PackedShape {
   // Radius of the sphere as which it touches others in a host whose grains touch each other as spheres, in which such spheres, too, must
   // not overlap; 0: grains touch each other by their shapes.
   Real touch = 0;
+  // Of a clump, in place of `grain`: its spheres about the centre of the sphere around it.
+  std::vector<Ball> balls = {};
 };
 
 struct PackedSphere {
@@ -36,9 +39,10 @@ std::vector<PackedSphere> images_in(const PackedSphere &sphere, const Box &zone,
 // Grains come one by one, each up to `largest` in radius, and count with their images.
 class Packing {
  public:
-  // `there`: images_in() of the spheres that are there already.
+  // `there`: images_in() of the spheres that are there already. `largest_sphere`: radius of the spheres of clumps that come, where
+  // clumps do.
   Packing(const std::vector<PackedSphere> &there, const Box &zone, Real largest,
-          const PeriodicBox &box);
+          const PeriodicBox &box, Real largest_sphere = 0);
 
   // Exactly touching is no overlap of spheres.
   bool overlaps(const PackedSphere &grain) const;
@@ -48,6 +52,7 @@ class Packing {
   static constexpr int kNone = -1;
   std::uint64_t cell(const Vec3 &x, int i, int j, int k) const;
   void list(const PackedSphere &sphere);
+  bool meets(const PackedSphere &grain) const;    // one that is no clump
 
   Box zone_;
   Real largest_, cell_;

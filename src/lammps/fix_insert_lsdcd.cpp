@@ -69,7 +69,7 @@ class LammpsSite : public lsdcd::InsertionSite {
 
   bool is_clear_of_walls(const PackedSphere &grain) override
   {
-    return fix_.walls->is_clear(grain, box_);
+    return has_all_in_box(grain) && fix_.walls->is_clear(grain, box_);
   }
 
   // Beside walls that have never moved: others may yet make room.
@@ -85,9 +85,9 @@ class LammpsSite : public lsdcd::InsertionSite {
         k += kTries;
         continue;
       }
-      const lsdcd::Quaternion turn =
-          source.has_shapes() ? source.turn(random) : lsdcd::Quaternion();
-      if (fix_.walls->is_clear_at_rest(fix_.insertion->packed(grain, at, turn, 0), box_)) {
+      const lsdcd::Quaternion turn = source.has_kinds() ? source.turn(random) : lsdcd::Quaternion();
+      const PackedSphere here = fix_.insertion->packed(grain, at, turn, 0);
+      if (has_all_in_box(here) && fix_.walls->is_clear_at_rest(here, box_)) {
         radius_with_room = grain.radius;
         return;
       }
@@ -102,11 +102,22 @@ class LammpsSite : public lsdcd::InsertionSite {
   static constexpr std::int64_t kRoom = 4;    // part of a key, as in insertion.cpp
 
   // A mesh may reach past a periodic face; LAMMPS's regions end there.
-  bool is_in_box(const Vec3 &at) const
+  bool is_in_box(const Vec3 &at) const { return is_in_box(at, fix_.face != nullptr); }
+
+  // Atoms of clumps may be past a periodic face, and LAMMPS loses those past another one.
+  bool has_all_in_box(const PackedSphere &grain) const
+  {
+    if (!fix_.clumps) return true;
+    for (const lsdcd::Ball &ball : grain.shape->balls)
+      if (!is_in_box(grain.at + ball.centre, true)) return false;
+    return true;
+  }
+
+  bool is_in_box(const Vec3 &at, bool may_be_periodic) const
   {
     const Vec3 part = box_.fraction(at);
     for (int k = 0; k < 3; k++) {
-      if (box_.periodic[k] && fix_.face) continue;
+      if (box_.periodic[k] && may_be_periodic) continue;
       if ((part[k] < 0 && !box_.face_follows[k][0]) || (part[k] >= 1 && !box_.face_follows[k][1]))
         return false;
     }
@@ -128,7 +139,17 @@ FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
     fatal("the simulation has two dimensions: there is no insertion there");
   run_core([&] {
     settings = lsdcd::parse_insert(words_of(arg + 3, arg + narg));
-    check_atoms();
+    if (settings.has_clumps()) {
+      check_atoms_of_clumps();
+      clumps = std::make_unique<ClumpTemplates>(lmp, settings.molecules);
+      lsdcd::GrainRecipe &grains = settings.plan.grains;
+      grains.set_kinds(clumps->kinds(settings.shares), settings.shares_are_by_mass);
+      grains.density_lo = grains.density_hi = 1;    // as GrainKind::solid() has it
+      const std::string other = clumps->other_mass();
+      if (!other.empty()) warn(other);
+    } else {
+      check_atoms();
+    }
     if (settings.type > atom->ntypes)
       throw lsdcd::InputError("in 'type', there is no atom type " + std::to_string(settings.type) +
                               ": there are " + std::to_string(atom->ntypes));
@@ -185,6 +206,37 @@ void FixInsertLsdcd::check_atoms() const
             "atom_style ellipsoid superellipsoid, of LAMMPS 30 Mar 2026 or later");
 }
 
+void FixInsertLsdcd::check_atoms_of_clumps() const
+{
+  if (!lsdcd::shape_of_atoms(*atom).empty() || !atom->radius_flag || !atom->rmass_flag)
+    fatal("clumps are of spheres, and atoms need a radius and a mass each and no shapes: use "
+          "atom_style sphere");
+  if (atom->molecular == 2)
+    fatal("atom_style template keeps molecules of its own: use atom_style sphere for clumps");
+  if (!atom->molecule_flag || !atom->tag_enable)
+    fatal("atoms of clumps need the ID of their molecule, and one of their own: write 'fix ID all "
+          "property/atom mol ghost yes' before this fix, and leave out atom_modify id no");
+}
+
+// The bodies of new clumps are those of this fix.
+void FixInsertLsdcd::find_rigid(const std::vector<Fix *> &fixes)
+{
+  rigid = nullptr;
+  for (Fix *fix : fixes)
+    if (fix && settings.rigid == fix->id) rigid = fix;
+  if (!rigid)
+    fatal("in 'rigid', there is no fix '" + settings.rigid + "': write 'fix " + settings.rigid +
+          " all rigid/small molecule mol " + settings.molecules + "'");
+  const std::string why = clumps->why_not(*rigid);
+  if (!why.empty()) fatal("in 'rigid', " + why);
+  if (!(rigid->groupbit & (1 | groupbit)))
+    fatal("in 'rigid', fix " + settings.rigid +
+          " acts on a group in which new atoms are not: they join all and that of this fix");
+  if (std::string(rigid->style).find("/kk") != std::string::npos)
+    warn("fix " + settings.rigid + " of style " + rigid->style +
+         " has not been tried with new clumps: compare a short run with one of rigid/small");
+}
+
 FixInsertLsdcd::~FixInsertLsdcd()
 {
   if (!radii_id.empty() && lsdcd::host_fix(*modify, radii_id)) modify->delete_fix(radii_id);
@@ -217,7 +269,7 @@ void FixInsertLsdcd::read_face()
   if (!face->has_room(radius))
     throw lsdcd::InputError(settings.face.file + ": no place on the face is " +
                             number_text(radius) + ", the largest radius" +
-                            (shape_atoms ? " of spheres around grains" : "") +
+                            (shape_atoms || clumps ? " of spheres around grains" : "") +
                             ", away from its edges: make the face wider, or its scale larger");
   velocity = settings.along_normal ? settings.speed * face->normal() : settings.velocity;
   log(lsdcd::counted(mesh.faces.size(), "triangle") + ", area " + number_text(face->area()) +
@@ -294,6 +346,7 @@ void FixInsertLsdcd::init()
               std::string(fix->id) + ": define it after this fix");
     }
   }
+  if (clumps) find_rigid(fixes);
   if (!missing.empty())
     fatal("in 'wall', there is no fix '" + missing[0] + "': give the ID of a fix wall/lsdcd");
   radius_with_room.assign(settings.plan.grains.n_kinds(), 0);
@@ -346,13 +399,14 @@ void FixInsertLsdcd::follow_schedule()
 
 double FixInsertLsdcd::largest_radius(int type) const
 {
+  if (clumps) return clumps->largest_radius(type);
   return type == settings.type ? insertion->source().largest_radius() : 0;
 }
 
 // Returns the radius of the sphere as which a grain with a shape touches others, of its volume; 0: grains touch each other by their shapes.
 double FixInsertLsdcd::touch_radius(const lsdcd::Grain &grain) const
 {
-  if (!atom->radius_flag || ShapeAtoms::has_superellipsoids(*atom)) return 0;
+  if (!shape_atoms || !atom->radius_flag || ShapeAtoms::has_superellipsoids(*atom)) return 0;
   return grain.radius * std::cbrt(grain.bulk / lsdcd::kBallVolume);
 }
 
@@ -412,8 +466,9 @@ std::vector<Insertion::Placed> FixInsertLsdcd::choose(lsdcd::Refused &refused)
     const std::size_t width = has_shapes ? kShapeNumbers : kSphereNumbers;
     for (std::size_t i = 0; i < near.size(); i += width)
       there.push_back(packed_from(&near[i], has_shapes, shapes));
-    const lsdcd::Packing packing(there, around, insertion->source().largest_radius(),
-                                 lsdcd::host_box(*domain));
+    const lsdcd::GrainSource &source = insertion->source();
+    const lsdcd::Packing packing(there, around, source.largest_radius(), lsdcd::host_box(*domain),
+                                 source.largest_sphere());
     walls->place(update->dt);
     LammpsSite site(*this);
     for (const Insertion::Placed &p : insertion->place(update->ntimestep, site, packing, refused))
@@ -562,48 +617,120 @@ tagint FixInsertLsdcd::last_id(bigint n) const
   return last > MAXTAGINT - n ? 0 : static_cast<tagint>(last);
 }
 
+// As last_id(), of molecules.
+tagint FixInsertLsdcd::last_molecule(bigint n) const
+{
+  std::int64_t last = 0;
+  for (const Fix *fix : lsdcd::host_fixes(*modify))
+    if (const auto *inlet = dynamic_cast<const FixInsertLsdcd *>(fix))
+      last = std::max(last, inlet->insertion->last_molecule());
+  tagint most = last > MAXTAGINT - n ? 0 : static_cast<tagint>(last);
+  for (int i = 0; i < atom->nlocal; i++) most = std::max(most, atom->molecule[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (most > MAXTAGINT - n) fatal("molecule IDs end: too many clumps for this LAMMPS");
+  return most;
+}
+
+std::size_t FixInsertLsdcd::n_atoms(const lsdcd::Grain &grain) const
+{
+  return clumps ? clumps->n_atoms(grain.kind) : 1;
+}
+
+// Returns the index of a new atom of this process at x, which is in the box.
+int FixInsertLsdcd::new_atom(int type, double *x, imageint image, const Vec3 &v, tagint tag)
+{
+  atom->avec->create_atom(type, x);
+  const int m = atom->nlocal - 1;
+  for (int d = 0; d < 3; d++) atom->v[m][d] = v[d];
+  atom->mask[m] = 1 | groupbit;
+  atom->image[m] = image;
+  if (atom->tag_enable) atom->tag[m] = tag;
+  return m;
+}
+
+static constexpr imageint kNoImage =
+    ((imageint) IMGMAX << IMG2BITS) | ((imageint) IMGMAX << IMGBITS) | IMGMAX;
+
+// Returns how many atoms this process has made.
+int FixInsertLsdcd::create_grain(const lsdcd::Grain &grain, const Insertion::Placed &place,
+                                 tagint tag)
+{
+  double x[3] = {place.at.x, place.at.y, place.at.z};
+  imageint image = kNoImage;
+  domain->remap(x, image);
+  if (!owns(x)) return 0;
+  const Vec3 v = velocity + insertion->source().velocity_jitter(grain.number);
+  const int m = new_atom(settings.type, x, image, v, tag);
+  atom->rmass[m] = grain.mass();
+  if (shape_atoms) {
+    const lsdcd::Superellipsoid s = insertion->source().shape(grain);
+    shape_atoms->make(m, {s.half, s.n1, s.n2, place.turn, inertia_over_mass(s)});
+    const double touch = touch_radius(grain);
+    if (atom->radius_flag) atom->radius[m] = touch > 0 ? touch : grain.radius;
+  } else {
+    atom->radius[m] = grain.radius;
+  }
+  set_properties(m);
+  modify->create_attribute(m);
+  return 1;
+}
+
+// Returns how many atoms of the clump this process has made. `before`: the ID before that of its first atom. The body begins in the
+// box, and its atoms have images about it.
+int FixInsertLsdcd::create_clump(const lsdcd::Grain &grain, const Insertion::Placed &place,
+                                 tagint before, tagint molecule)
+{
+  double centre[3] = {place.at.x, place.at.y, place.at.z};
+  imageint image = kNoImage;
+  domain->remap(centre, image);
+  const Vec3 at = {centre[0], centre[1], centre[2]};
+  const Vec3 v = velocity + insertion->source().velocity_jitter(grain.number);
+  const std::vector<lsdcd::Ball> balls = insertion->source().balls(grain, place.turn);
+  const int first = atom->nlocal;
+  for (std::size_t i = 0; i < balls.size(); i++) {
+    const Vec3 of = at + balls[i].centre;
+    double x[3] = {of.x, of.y, of.z};
+    image = kNoImage;
+    domain->remap(x, image);
+    if (!owns(x)) continue;
+    const int m =
+        new_atom(clumps->type(grain.kind, i), x, image, v, before + 1 + static_cast<tagint>(i));
+    clumps->fill(grain.kind, i, m, before);
+    set_properties(m);
+    atom->molecule[m] = molecule;
+    modify->create_attribute(m);
+  }
+  clumps->tell(*rigid, grain.kind, first, before, at, v, place.turn);
+  return atom->nlocal - first;
+}
+
 // IDs are given in the order in which grains are placed, so that they do not depend on the number of processes.
 void FixInsertLsdcd::create(const std::vector<Insertion::Placed> &placed)
 {
   if (placed.empty()) return;
-  const bigint n = static_cast<bigint>(placed.size());
+  bigint n = 0;    // atoms
+  for (const Insertion::Placed &place : placed)
+    n += static_cast<bigint>(n_atoms(insertion->owed()[place.index]));
   tagint most = last_id(n);
   for (int i = 0; atom->tag_enable && i < atom->nlocal; i++) most = std::max(most, atom->tag[i]);
   MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   if (atom->tag_enable && most > MAXTAGINT - n)
     fatal("atom IDs end: too many grains for this LAMMPS");
   atom->nghost = 0;    // new atoms come where ghosts were
+  const tagint molecule = clumps ? last_molecule(static_cast<bigint>(placed.size())) : 0;
   bigint made = 0;
+  tagint last = most;
   for (std::size_t k = 0; k < placed.size(); k++) {
     const lsdcd::Grain &grain = insertion->owed()[placed[k].index];
-    double x[3] = {placed[k].at.x, placed[k].at.y, placed[k].at.z};
-    imageint image = ((imageint) IMGMAX << IMG2BITS) | ((imageint) IMGMAX << IMGBITS) | IMGMAX;
-    domain->remap(x, image);
-    if (!owns(x)) continue;
-    atom->avec->create_atom(settings.type, x);
-    const int m = atom->nlocal - 1;
-    const Vec3 v = velocity + insertion->source().velocity_jitter(grain.number);
-    for (int d = 0; d < 3; d++) atom->v[m][d] = v[d];
-    atom->mask[m] = 1 | groupbit;
-    atom->image[m] = image;
-    atom->rmass[m] = grain.mass();
-    if (shape_atoms) {
-      const lsdcd::Superellipsoid s = insertion->source().shape(grain);
-      shape_atoms->make(m, {s.half, s.n1, s.n2, placed[k].turn, inertia_over_mass(s)});
-      const double touch = touch_radius(grain);
-      if (atom->radius_flag) atom->radius[m] = touch > 0 ? touch : grain.radius;
-    } else {
-      atom->radius[m] = grain.radius;
-    }
-    if (atom->tag_enable) atom->tag[m] = most + 1 + static_cast<tagint>(k);
-    set_properties(m);
-    modify->create_attribute(m);
-    made++;
+    made += clumps ? create_clump(grain, placed[k], last, molecule + 1 + static_cast<tagint>(k))
+                   : create_grain(grain, placed[k], last + 1);
+    last += static_cast<tagint>(n_atoms(grain));
   }
+  if (clumps) insertion->note_molecule(molecule + static_cast<tagint>(placed.size()));
   clear_levels(static_cast<int>(made));
   MPI_Allreduce(MPI_IN_PLACE, &made, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (made != n)
-    fatal("of " + std::to_string(n) + " grains " + std::to_string(made) +
+    fatal("of " + std::to_string(n) + " new atoms " + std::to_string(made) +
           " belong to a process: this is an error in the program");
   if (atom->tag_enable) insertion->note_id(most + n);
   atom->natoms += n;
@@ -631,6 +758,9 @@ std::string FixInsertLsdcd::late_text(const std::string &when, const lsdcd::Refu
 
 std::string FixInsertLsdcd::grain_text(const lsdcd::Grain &grain) const
 {
+  if (clumps)
+    return "the clump of molecule " + std::to_string(grain.kind + 1) + " in template " +
+           settings.molecules;
   if (!shape_atoms) return "a grain of diameter " + number_text(2 * grain.radius);
   return "a grain of shape " + lsdcd::vector_text(2 * insertion->source().shape(grain).half);
 }
@@ -642,7 +772,10 @@ std::string FixInsertLsdcd::no_room_text(const lsdcd::Grain &grain, int tries) c
          " none is clear of the walls for " + grain_text(grain) +
          ", even without other grains, so it would hold back all that come after it: give "
          "smaller grains in '" +
-         (shape_atoms ? "shape" : "diam") + "' or a larger " + (face ? "mesh" : "region") +
+         (clumps        ? "mol"
+          : shape_atoms ? "shape"
+                        : "diam") +
+         "' or a larger " + (face ? "mesh" : "region") +
          ", move it away from the walls, or name by wall ID only the walls that grains must avoid";
 }
 

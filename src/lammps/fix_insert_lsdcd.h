@@ -10,6 +10,7 @@
 
 #include "input/insert_settings.h"
 #include "insert/inlet_face.h"
+#include "lammps/clump_templates.h"
 #include "lammps/output_variables.h"
 #include "lammps/own_messages.h"
 #include "lammps/shape_atoms.h"
@@ -62,7 +63,9 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   std::string radii_id;           // of the fix that tells radii to pair styles
   lsdcd::Refused refused_seen;    // before this run
   std::int64_t inserted_before = 0;
-  std::unique_ptr<ShapeAtoms> shape_atoms;    // null: grains are spheres
+  std::unique_ptr<ShapeAtoms> shape_atoms;    // null: grains are spheres or clumps of them
+  std::unique_ptr<ClumpTemplates> clumps;     // null: grains are no clumps
+  Fix *rigid = nullptr;                       // of clumps
   // Of each kind: the largest radius of grains that have places beside the walls. On the first process.
   std::vector<double> radius_with_room;
   bool told = false;    // in this run, that grains have no place
@@ -74,10 +77,17 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   void find_region();
   lsdcd::Box zone() const;
   void check_atoms() const;
+  void check_atoms_of_clumps() const;
+  void find_rigid(const std::vector<Fix *> &fixes);
   double touch_radius(const lsdcd::Grain &) const;
   std::vector<double> gather_grains(const lsdcd::Box &) const;
   std::vector<lsdcd::Insertion::Placed> choose(lsdcd::Refused &);
   void create(const std::vector<lsdcd::Insertion::Placed> &);
+  int create_grain(const lsdcd::Grain &, const lsdcd::Insertion::Placed &, tagint tag);
+  int create_clump(const lsdcd::Grain &, const lsdcd::Insertion::Placed &, tagint before,
+                   tagint molecule);
+  int new_atom(int type, double *x, imageint image, const lsdcd::Vec3 &v, tagint tag);
+  std::size_t n_atoms(const lsdcd::Grain &) const;
   bool owns(double *) const;
   void begin_schedule(bigint step);
   void follow_schedule();
@@ -85,6 +95,7 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   void check_temperature() const;
   void warn_of_seed(const std::vector<Fix *> &fixes);
   tagint last_id(bigint n) const;
+  tagint last_molecule(bigint n) const;
   void set_properties(int) const;
   void clear_levels(int n_new) const;
   std::string late_text(const std::string &, const lsdcd::Refused &) const;

@@ -64,13 +64,18 @@ void WallClearance::Surface::place(const std::vector<Vec3> &vertices, const Mesh
   bounds = placed_bounds(pose, {mesh.report.lo, mesh.report.hi});
 }
 
-// The sphere's centre is then less than its radius from the mesh; a grain with a shape has a point of the mesh in it.
+// The sphere's centre is then less than its radius from the mesh; a grain with a shape has a point of the mesh in it, and a clump has
+// such a sphere.
 bool WallClearance::Surface::overlaps(const PackedSphere &grain)
 {
   if (!search) search = std::make_unique<Search>(mesh);
   const Vec3 at = pose.to_mesh(grain.at);
   if (!search->tree.is_within(at, grain.radius, search->hint)) return false;
   if (!grain.shape) return true;
+  for (const Ball &ball : grain.shape->balls)
+    if (search->tree.is_within(pose.to_mesh(grain.at + ball.centre), ball.radius, search->hint))
+      return true;
+  if (!grain.shape->balls.empty()) return false;
   PlacedGrain placed = grain.shape->grain;
   placed.centre = at;
   Vec3 axis[3];

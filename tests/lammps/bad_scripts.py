@@ -234,7 +234,7 @@ TABLES = [
         ("insert_mass_infinite", "region box diam range 1 1e110 dens 1 number 5", "masses from 0.523599 to inf"),
         ("insert_narrow_face", "mesh floor.stl diam one 50 dens 1 number 5",
          "Fix in insert/lsdcd", "floor.stl: no place on the face is 25, the largest radius, away from its edges"),
-        ("insert_no_law", "mesh floor.stl dens 1 number 5", "Fix in insert/lsdcd", "diam or shape is missing"),
+        ("insert_no_law", "mesh floor.stl dens 1 number 5", "Fix in insert/lsdcd", "diam, shape or mol is missing"),
         ("insert_no_place", "diam one 0.2 dens 1 number 5", "Fix in insert/lsdcd", "mesh FILE or region ID is missing"),
         ("insert_no_region", "region nowhere diam one 0.2 dens 1 number 5",
          "Fix in insert/lsdcd", "there is no region nowhere: define it before this fix"),

@@ -309,6 +309,10 @@ TEST(insertion, words_of_shapes_that_make_no_grains_are_refused)
   says("shape 3 3 1.6 block 6 2 block 6 2", "'block' is given twice");
   says("shape 3 3 1.6 diam one 1", "diam is of spheres and shape of other grains");
   says("diam one 1 orient random", "orient turns grains with a shape");
+  says("mol stones rigid bodies diam one 1", "leave diam out");
+  says("mol stones", "rigid is missing");
+  says("diam one 1 dens 1 rigid bodies", "rigid is of clumps");
+  says("mol stones fraction 0.3 0.3 rigid bodies", "the fractions add up to 0.6");
   says("shape 3 3 1.6 orient 0 0 0 30", "the axis is 0 0 0");
   says("shape 3 3 1e-200", "a half-axis of a shape is 5e-201");
 }
