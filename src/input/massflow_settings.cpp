@@ -13,7 +13,7 @@ namespace {
 const char *const kMassflowSyntax =
     "fix ID group massflow/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] "
     "[move x y z] [matrix m11 m12 m13 tx m21 m22 m23 ty m31 m32 m33 tz] [weld tol] [count each "
-    "| once] [delete no | yes] [every N] [file NAME] [log full | brief]";
+    "| once] [delete no | yes] [clumps no | yes] [every N] [file NAME] [log full | brief]";
 
 }    // namespace
 
@@ -37,6 +37,9 @@ MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
     } else if (word == "delete") {
       w.set_context("delete", "delete no | yes");
       settings.deletes = w.choice({"no", "yes"}) == 1;
+    } else if (word == "clumps") {
+      w.set_context("clumps", "clumps no | yes");
+      settings.clumps = w.choice({"no", "yes"}) == 1;
     } else if (word == "file") {
       w.set_context("file", "file NAME");
       if (w.done()) w.fail("its name is missing");

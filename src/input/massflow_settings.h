@@ -16,6 +16,7 @@ struct MassflowSettings {
   bool brief = false;      // one line in the log
   bool once = false;       // a sphere counts the first time only
   bool deletes = false;    // what has passed forward
+  bool clumps = false;     // atoms of a molecule are one grain
   int every = 1000;        // steps over which the rate is an average
   std::string file;        // of rows of passages; empty: none
 };

@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -56,6 +57,12 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
   });
   if (settings.deletes && atom->molecular)
     fatal("delete yes leaves bonds without their atoms: use an atom style without bonds");
+  if (settings.clumps && std::string(style).find("/kk") != std::string::npos)
+    fatal("clumps are counted on a CPU alone: use massflow/lsdcd without /kk");
+  if (settings.clumps && (!atom->molecule_flag || !atom->tag_enable))
+    fatal(
+        "clumps yes counts atoms with one ID of their molecule as one grain, and atoms have none: "
+        "write 'fix ID all property/atom mol ghost yes' before this fix");
 
 #if __has_include("atom_masks.h")
   // All that a host with its atoms on a GPU has to bring for counting; deletion takes everything.
@@ -147,9 +154,13 @@ void FixMassflowLsdcd::init()
   const std::string late = settings.deletes ? late_pair_springs(*this, *modify) : "";
   if (!late.empty()) fatal(late);
   for (const Fix *fix : lsdcd::host_fixes(*modify))
-    if (settings.deletes && fix->rigid_flag)
-      warn("delete yes removes atoms without telling fix " + std::string(fix->id) +
-           ", whose rigid bodies they belong to: leave these atoms out of the group");
+    if (settings.deletes && fix->rigid_flag &&
+        !(settings.clumps && std::strstr(fix->style, "rigid") && std::strstr(fix->style, "/small")))
+      warn(
+          "delete yes removes atoms without telling fix " + std::string(fix->id) +
+          ", whose rigid bodies they belong to: leave these atoms out of the group, or move bodies "
+          "by fix rigid/small and give 'clumps yes', with which all atoms of a molecule go at "
+          "once");
 }
 
 // Between runs atoms may be put anywhere: only time steps let them pass. The file is opened here and not before, so that a run
@@ -166,6 +177,10 @@ void FixMassflowLsdcd::setup(int /*vflag*/)
   step_seen = update->ntimestep;
   follow_box();
   all_were_seen = look_at_all = true;
+  if (settings.clumps) {
+    for (int i = 0; i < atom->nlocal; i++) tracks[i].flags |= kNew;
+    find_clumps();
+  }
   begin_at_atoms();
 }
 
@@ -205,6 +220,7 @@ void FixMassflowLsdcd::end_of_step()
   if (domain->box_change) follow_box();
   look_at_all = look_at_all || neighbor->ago == 0 || domain->box_change ||
                 !lsdcd::atoms_stay_close(*neighbor);
+  if (settings.clumps && neighbor->ago == 0) find_clumps();
   look_at_atoms();
   all_were_seen = look_at_all;
   look_at_all = false;
@@ -223,6 +239,7 @@ void FixMassflowLsdcd::look_at_atoms()
   if (look_at_all) {
     near.clear();
     for (int i = 0; i < atom->nlocal; i++) {
+      if (tracks[i].flags & kFollows) continue;
       look(i);
       if (tracks[i].clear < near_within) near.push_back(i);
     }
@@ -284,7 +301,7 @@ FixMassflowLsdcd::Passer FixMassflowLsdcd::passer(int i) const
            {x[0], x[1], x[2]},
            {v[0], v[1], v[2]},
            0},
-          mass_of(i),
+          tracks[i].clump_mass > 0 ? tracks[i].clump_mass : mass_of(i),
           atom->mask[i]};
 }
 

@@ -75,7 +75,9 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   virtual unsigned &flags_of(int i) { return tracks[i].flags; }
 
   void count(const Passer &, lsdcd::Passes, unsigned &flags);
-  void note_deleted(bigint n, double mass);    // of this process; collective
+  void note_deleted(bigint n, double mass) { note_deleted(n, mass, n); }
+  // Of this process: grains, their mass, and the atoms that they are of. Collective.
+  void note_deleted(bigint n, double mass, bigint n_atoms);
   [[noreturn]] void lost_sight(std::int64_t id) const;
   double simulated_time() const;
   void forget_tracks() { std::vector<Track>().swap(tracks); }    // for a form with others
@@ -98,8 +100,11 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
     lsdcd::Vec3 last;    // position when last looked at
     double clear;
     unsigned flags;
+    double clump_mass;    // of the first atom of a clump; 0: it is none
   };
-  static constexpr int kTrackSize = 5;    // in messages
+  static constexpr int kTrackSize = 6;    // in messages
+  // Of flags, with clumps: another atom counts for this one, and whether one does is to be found.
+  enum : unsigned { kFollows = 4, kNew = 8 };
 
   RerunWatch watch;
   std::vector<Track> tracks;
@@ -132,6 +137,9 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   void check_size(const lsdcd::WeldedMesh &) const;
   void follow_box();
   void look(int);
+  void find_clumps();
+  void find_clumps(tagint first, tagint last);
+  std::vector<tagint> molecules_to_delete() const;
   Passer passer(int) const;
   void open_rows();
   void keep_row(lsdcd::Passage, lsdcd::Passes);

@@ -297,6 +297,8 @@ void FixWallLsdcd::init()
     if (fix->rigid_flag) rigid = true;
     if (std::strncmp(fix->style, "adapt", 5) == 0) adapts = true;
   }
+  const std::string doubt = rigid ? doubtful_bodies(*modify, force->pair_style) : "";
+  if (!doubt.empty()) warn(doubt);
   changing = steps_between_changes(*modify);
   if (!rigid) std::vector<double>().swap(damping_mass);
   check_heat();

@@ -139,3 +139,23 @@ std::string LAMMPS_NS::late_pair_springs(const Fix &fix, Modify &modify)
   }
   return "";
 }
+
+std::string LAMMPS_NS::doubtful_bodies(Modify &modify, const char *pair_style)
+{
+  const auto ends_in_kk = [](const std::string &style) {
+    return style.size() > 3 && style.compare(style.size() - 3, 3, "/kk") == 0;
+  };
+  for (const Fix *fix : lsdcd::host_fixes(modify)) {
+    if (!fix->rigid_flag) continue;
+    const std::string pairs = pair_style ? pair_style : "", name = std::string("fix ") + fix->id;
+    if (pairs.compare(0, 5, "gran/") == 0 && ends_in_kk(pairs))
+      return "pair_style " + pairs + " damps spheres of the bodies of " + name +
+             " by the masses of the spheres, where the wall takes those of the bodies: use "
+             "granular/lsdcd/kk, or the style without /kk";
+    if (ends_in_kk(fix->style))
+      return name + " of style " + fix->style +
+             " has not been tried with walls: compare a short run with one of the style without "
+             "/kk";
+  }
+  return "";
+}

@@ -36,6 +36,10 @@ bool atoms_may_have_changed(const std::vector<int> &steps_between, bigint step);
 // they would go to other atoms; empty: none does.
 std::string late_pair_springs(const class Fix &, class Modify &);
 
+// Returns a text if what moves rigid bodies, or the pair style, may not be as walls have it: a rigid fix of Kokkos, which has not been
+// tried, or LAMMPS's own pairs of grains for Kokkos, which damp clumps by the masses of their spheres. Empty: all is.
+std::string doubtful_bodies(class Modify &, const char *pair_style);
+
 }    // namespace LAMMPS_NS
 
 #endif

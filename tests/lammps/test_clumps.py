@@ -238,6 +238,55 @@ def test_lifted(folder):
     at_most("a mesh that moves: as at rest", lmp.largest_difference(rest, moved), 1e-10)
 
 
+def test_massflow(folder):
+    """Clumps that tumble through a plane count once each, with all of their mass, when their first atom passes, as its path has it; all
+    their atoms go at once, on any number of processes, and in a run that goes on from a file."""
+    steps, height = 480, 0.5
+    plane = f"mesh whole.stl rotate 1 0 0 180 move 0 0 {height}"
+    fix = f"fix m all massflow/lsdcd {plane} clumps yes"
+    shown = "thermo_style custom step atoms f_m[1] f_m[2] f_m[7] f_m[8]\nthermo_modify norm no format float %.17g\n"
+
+    def rows(words, ranks, steps, begin, more=""):
+        return lmp.read_thermo(lmp.run_well(begin + f"{fix} {words}\n{shown}thermo 20\n" + more + f"run {steps}\n", folder, ranks))
+
+    def forces_alone():
+        return re.sub("fix +wall .*\n", "", forces("none", dt=5e-4, force="step"))
+
+    begin = create(FEW, THROWN) + forces_alone()
+    seen = rows("", 1, steps, begin, DUMP.format(name="path", every=1))
+    path, first, members = lmp.read_dump(folder / "path"), {}, {}
+    at = 1
+    for number, (name, _, _) in enumerate(FEW):
+        first[number], members[number] = at, len(CLUMPS[name])
+        at += len(CLUMPS[name])
+    wrong = []
+    for step, atoms, forward, mass, _, _ in seen:
+        passed = [k for k in first if path[int(step)][first[k]][2] < height]
+        expected = MASS * sum(members[k] for k in passed)
+        if forward != len(passed) or abs(mass - expected) > 1e-12 * (1 + expected) or atoms != len(path[0]):
+            wrong.append((step, forward, mass, len(passed), expected))
+    fact("clumps that passed: number and mass", not wrong and any(0 < row[2] < len(FEW) for row in seen),
+         str(wrong[:1]))
+    each = "neigh_modify every 1 check no\n"
+    for ranks in (1, 2):
+        wrong = []
+        whole = rows("delete yes", ranks, steps, begin + each)
+        for step, atoms, forward, mass, gone, gone_mass in whole:
+            passed = [k for k in first if path[int(step)][first[k]][2] < height]
+            before = [k for k in first if path[max(int(step) - 1, 0)][first[k]][2] < height]
+            n, m = sum(members[k] for k in before), MASS * sum(members[k] for k in before)
+            if (forward, gone, atoms) != (len(passed), len(before), len(path[0]) - n) or abs(gone_mass - m) > 1e-12 * (1 + m):
+                wrong.append((step, atoms, forward, gone, gone_mass, len(passed), len(before), n, m))
+        fact(f"{ranks} processes: all atoms of a clump go at once", not wrong, str(wrong[:1]))
+    half = next(step for step in range(steps) if 2 * sum(path[step][id_][2] < height for id_ in first.values()) > len(FEW))
+    lmp.run_well(begin + f"{fix} delete yes\n{each}run {half}\nwrite_restart mid.restart\n", folder, 2)
+    again = rows("delete yes", 1, steps - half, SETTINGS + "read_restart mid.restart\nfix number all property/atom mol ghost yes\n" +
+                 forces_alone() + each)
+    fact("restart: the same counts", 0 < again[0][2] < again[-1][2] and [again[-1][k] for k in (1, 2, 4)] == [whole[-1][k] for k in (1, 2, 4)],
+         f"{again[0]} {again[-1]} {whole[-1]}")
+    at_most("restart: the same masses", max(abs(again[-1][k] / whole[-1][k] - 1) for k in (3, 5)), 1e-12)
+
+
 BODY = """\
 {head}fix             number all property/atom mol ghost yes
 molecule        clump clump.mol
