@@ -6,7 +6,9 @@
 #include "input/material_words.h"
 #include "material/material_file.h"
 #include "tool/mesh_json.h"
+#include "tool/number_options.h"
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <sstream>
@@ -23,6 +25,8 @@ const MaterialWords kWords = {"--on", "--with",
 struct MaterialOptions {
   std::string file, name, wall, normal = "hertz/material", units = "si";
   std::vector<std::string> with;
+  double kn = kNotGiven;
+  std::vector<double> mass;
   bool json = false;
 };
 
@@ -80,16 +84,46 @@ MaterialLaw law_of(const MaterialOptions &o)
   return law_of_materials(pair, o.units, kWords);
 }
 
-nlohmann::json as_json(const MaterialLaw &law)
+// Returns the words of a linear spring in place of the sub-models of materials, for pair styles that take none. A head-on impact
+// of two bodies with this effective mass returns the restitution: gamma = 2 sqrt(kn/m) / sqrt(1 + (pi/ln e)^2). The stiffnesses are to
+// each other as those of Mindlin and Hertz, kt/kn = 2 (1 - nu)/(2 - nu), and friction is that of the materials.
+std::string linear_words(const MaterialLaw &law, double kn, double mass)
+{
+  const std::vector<Real> &normal =
+      law.sub_models[0].numbers;    // modulus, restitution, Poisson's ratio
+  const Real nu = normal[2],
+             gamma = 2 * std::sqrt(kn / mass) / std::hypot(1, kPi / std::log(normal[1]));
+  return "hooke " + number_text(kn) + " " + number_text(gamma) + " tangential linear_history " +
+         number_text(kn * 2 * (1 - nu) / (2 - nu)) + " 1 " + number_text(law.law.mu) +
+         " damping mass_velocity";
+}
+
+// What the springs are of, with their words.
+std::vector<std::pair<std::string, std::string>> linear_laws(const MaterialOptions &o,
+                                                             const MaterialLaw &law)
+{
+  if (std::isnan(o.kn)) return {};
+  const double m = o.mass[0];
+  if (o.mass.size() == 2)
+    return {{"grains of both masses", linear_words(law, o.kn, 1 / (1 / m + 1 / o.mass[1]))}};
+  return {{"wall", linear_words(law, o.kn, m)}, {"two grains", linear_words(law, o.kn, m / 2)}};
+}
+
+nlohmann::json as_json(const MaterialOptions &o, const MaterialLaw &law)
 {
   std::vector<std::string> words;
   std::istringstream text(law.name);
   for (std::string word; text >> word;) words.push_back(word);
-  return {{"words", words}, {"report", law.report}};
+  nlohmann::json told = {{"words", words}, {"report", law.report}};
+  for (const auto &[of, linear] : linear_laws(o, law)) told["linear"][of] = linear;
+  return told;
 }
 
 void print(const MaterialOptions &o, const MaterialLaw &law)
 {
+  for (const auto &[of, words] : linear_laws(o, law))
+    std::printf("%s: %s\n", of.c_str(), words.c_str());
+  if (!std::isnan(o.kn)) return;
   std::printf("%s\n", law.report.c_str());
   std::printf("  %s\n", law.name.c_str());
   if (!o.wall.empty()) return;
@@ -108,9 +142,15 @@ void run(const MaterialOptions &o)
     list(o);
     return;
   }
+  if (std::isnan(o.kn) != o.mass.empty())
+    throw_usage_error(std::isnan(o.kn) ? "--mass" : "--kn",
+                      "the words of a linear spring need its stiffness and a mass: give --kn and "
+                      "--mass");
+  if (!std::isnan(o.kn) && o.normal != "hertz/material")
+    throw_usage_error("--kn", "a linear spring has no adhesion: leave --normal out");
   const MaterialLaw law = law_of(o);
   if (o.json)
-    print_json(stdout, as_json(law));
+    print_json(stdout, as_json(o, law));
   else
     print(o, law);
 }
@@ -123,7 +163,10 @@ void add_material_command(Command &program)
   Command command = program.command(
       "material",
       "prints what a material file says or, with a name, the keywords for an input script");
-  command.footer("Example:\n  lsdcd material glass.lsdcd glass --on aluminium");
+  command.footer(
+      "With --kn the words are those of a linear spring, which LAMMPS's granular/superellipsoid\n"
+      "takes: an impact of the mass returns the restitution, and kt is kn 2 (1 - nu)/(2 - nu).\n\n"
+      "Example:\n  lsdcd material glass.lsdcd glass --on aluminium");
   command.option("file", o->file, "material file, looked for as in an input script").required();
   command.option("name", o->name, "material of the grains");
   command.option("--on", o->wall, "material of the wall (default: the same)");
@@ -136,6 +179,15 @@ void add_material_command(Command &program)
   command.option("--with", o->with,
                  "properties and values that replace those of the file, or [material] property "
                  "value if the file has none");
+  command
+      .option("--kn", o->kn,
+              "stiffness of a linear spring: prints its words in place of those of materials")
+      .check(above_zero);
+  command
+      .option("--mass", o->mass,
+              "with --kn, of a grain at a wall and of two such grains, or of two unlike grains")
+      .words(1, 2)
+      .check(above_zero);
   command.flag("--json", o->json, "print JSON");
   command.runs([o] { run(*o); });
 }

@@ -28,8 +28,8 @@ import os
 import re
 import sys
 
-LAYERS = [["base"], ["backend"], ["geometry", "shape"], ["mesh"], ["box"], ["host"], ["motion"], ["grid", "rigid", "tree"], ["contact"], ["law"], ["engine"],
-          ["bodies", "clump", "query", "effects", "output", "material", "flow", "insert"],
+LAYERS = [["base"], ["backend"], ["geometry", "shape"], ["mesh"], ["box"], ["host"], ["motion"], ["grid", "rigid", "tree"], ["clump", "contact"], ["law"], ["engine"],
+          ["bodies", "query", "effects", "output", "material", "flow", "insert"],
           ["pair", "study"], ["wall"], ["input"], ["lammps", "tool", "api"], ["kokkos"]]
 # Of each module with folders. "." stands for the files that lie in none, but for those that are named.
 FOLDERS = {

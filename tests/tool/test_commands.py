@@ -13,7 +13,7 @@ import subprocess
 
 import stl
 from command import TOOL, refused, run
-from facts import fact
+from facts import at_most, fact
 from triangles import cube
 
 # What is missing where a command stands alone.
@@ -118,6 +118,7 @@ BAD = [    # words, exit code, what is said
     ("material nothing.lsdcd", 1, ["nothing.lsdcd", "glass.lsdcd"]),
     ("material glass.lsdcd glas", 1, ["glas", "glass"]),
     ("material glass.lsdcd glass --with restituion 0.5", 1, ["'restituion' is not a property", "'restitution'", "[--with"]),
+    ("material glass.lsdcd glass --kn 1000", 2, ["--kn and --mass"]),
     ("material glass.lsdcd glass --units miles", 2, ["miles", "cgs"]),
     ("material glass.lsdcd glass --normal hooke", 2, ["hooke", "hertz/material"]),
     ("timestep --radius 1 --speed 1", 2, ["--young", "material file"]),
@@ -239,8 +240,30 @@ def check_json(folder, commands):
     latin = run(folder, "material", "latin.lsdcd", "--json")
     fact("a source that is no UTF-8 is shown without its byte", latin.returncode == 0 and json.loads(latin.stdout)["materials"][0][
         "properties"]["youngs_modulus"]["source"] == "M\ufffdller", latin.stderr)
+    check_linear(folder)
     both = [run(folder, *"material glass.lsdcd glass --on aluminium".split(), *more).stdout for more in ([], ["--json"])]
     fact("and the words for a script are the same", " ".join(json.loads(both[1])["words"]) in both[0], both[1])
+
+
+def check_linear(folder):
+    """The words of a linear spring return the restitution, by its equation of motion in small steps, of a grain at a wall (its mass m), of two
+    (m/2) and of two unlike ones; friction and Poisson's ratio are the file's."""
+    for e in (0.1, 0.5, 0.83, 0.97):
+        for masses, effective in (((1.4e-5,), {"wall": 1.4e-5, "two grains": 0.7e-5}), ((1e-5, 3e-5), {"grains of both masses": 0.75e-5})):
+            told = json.loads(run(folder, *f"material glass.lsdcd glass --with restitution {e} --kn 1000 --mass".split(), *map(str, masses),
+                                  "--json").stdout)["linear"]
+            fact(f"restitution {e}, masses {masses}: words", set(told) == set(effective), told)
+            for of, mass in effective.items():
+                words = told[of].split()
+                k, gamma, kt, mu = (float(words[i]) for i in (1, 2, 5, 7))
+                z, v, dt = 0.0, -1.0, 1e-3 / math.sqrt(k / mass)
+                while z < 0 or v < 0:    # by the middle of each step, of second order
+                    zm, vm = z + dt / 2 * v, v + dt / 2 * (-k / mass * z - gamma * v)
+                    z, v = z + dt * vm, v + dt * (-k / mass * zm - gamma * vm)
+                # The release is found to a step of 1e-3 of a radian, in which the speed changes by gamma dt at most.
+                at_most(f"restitution {e}, {of}", abs(v / e - 1), gamma * dt + 1e-5)
+                fact(f"restitution {e}, {of}: other words", words[:1] + words[3:5] + words[8:] == ["hooke", "tangential", "linear_history", "damping", "mass_velocity"]
+                     and abs(kt / k - 2 * 0.77 / 1.77) < 1e-5 and mu == 0.092, told[of])
 
 
 def test_commands(folder):
