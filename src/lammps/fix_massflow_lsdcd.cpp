@@ -57,8 +57,6 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
   });
   if (settings.deletes && atom->molecular)
     fatal("delete yes leaves bonds without their atoms: use an atom style without bonds");
-  if (settings.clumps && std::string(style).find("/kk") != std::string::npos)
-    fatal("clumps are counted on a CPU alone: use massflow/lsdcd without /kk");
   if (settings.clumps && (!atom->molecule_flag || !atom->tag_enable))
     fatal(
         "clumps yes counts atoms with one ID of their molecule as one grain, and atoms have none: "
@@ -149,6 +147,10 @@ int FixMassflowLsdcd::setmask()
 void FixMassflowLsdcd::init()
 {
   watch.init(*update);
+  if (settings.clumps && kokkosable)
+    fatal("clumps are counted on a CPU alone: use massflow/lsdcd without /kk, between 'suffix off' "
+          "and "
+          "'suffix on'");
   lsdcd::MpiHost mpi(world);
   check_files_apart(*this, *lmp, mpi);
   const std::string late = settings.deletes ? late_pair_springs(*this, *modify) : "";

@@ -238,6 +238,20 @@ def test_lifted(folder):
     at_most("a mesh that moves: as at rest", lmp.largest_difference(rest, moved), 1e-10)
 
 
+@lmp.of_kokkos
+def test_massflow_of_kokkos_is_refused(folder):
+    lmp.refused("clumps", create(FEW, THROWN) + forces(ours()) + "fix m all massflow/lsdcd mesh whole.stl clumps yes\nrun 1\n", folder,
+                "clumps are counted on a CPU alone")
+
+
+@lmp.of_kokkos
+def test_doubtful_pairs_of_kokkos(folder):
+    """LAMMPS's own pairs of grains for Kokkos have the masses of spheres."""
+    text = create(FEW, THROWN) + forces(ours()) + "pair_style gran/hooke/history/kk 1e5 NULL 150 NULL 0.5 1\npair_coeff * *\nrun 1\n"
+    said = " ".join(lmp.run_well(text, folder).split())
+    fact("pairs that damp spheres are told of", "damps spheres of the bodies of fix bodies by the masses of the spheres" in said, said[-600:])
+
+
 def test_massflow(folder):
     """Clumps that tumble through a plane count once each, with all of their mass, when their first atom passes, as its path has it; all
     their atoms go at once, on any number of processes, and in a run that goes on from a file."""
