@@ -15,6 +15,7 @@ import csv
 import math
 import pathlib
 import re
+import statistics
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -700,15 +701,30 @@ def validation_cases(rows):
     return "\n\n".join(made)
 
 
-def validation_liggghts(rows):
-    """What LIGGGHTS sees in three of the cases."""
-    walls = ("plane", "two", "slivers")
-
+def validation_others(rows):
+    """What LIGGGHTS and Yade see in three of the cases."""
     def cells(r):
-        seen = {w: f"{float(r[w]):.6g}" for w in walls}
-        there = seen["plane"] if len(set(seen.values())) == 1 else "; ".join(f"{w} {v}" for w, v in seen.items())
-        return [r["case"].partition(" (")[2].rstrip(")"), r["quantity"], f"{float(r['expected']):.6g}{'' if r['unit'] == '1' else ' ' + r['unit']}", f"{float(r['LSDCD']):.6g}", there]
-    return table(rows, ["case", "quantity", "expected", "LSDCD", "LIGGGHTS 3.8"], cells)
+        told = []
+        for code in ("LIGGGHTS", "Yade"):
+            seen = {w: f"{float(r[f'{code}, {w}']):.6g}" for w in ("plane", "two", "slivers")}
+            told.append(seen["plane"] if len(set(seen.values())) == 1 else "; ".join(f"{w} {v}" for w, v in seen.items()))
+        return [r["case"].partition(" (")[2].rstrip(")"), r["quantity"], f"{float(r['expected']):.6g}{'' if r['unit'] == '1' else ' ' + r['unit']}", f"{float(r['LSDCD']):.6g}", *told]
+    return table(rows, ["case", "quantity", "expected", "LSDCD", "LIGGGHTS 3.8", "Yade 2023.02a"], cells)
+
+
+def validation_plate(rows):
+    """Forces on a plate over depth: mean and spread of packings, and how far cuts of its mesh are apart."""
+    by = {}
+    for r in rows:
+        forces = [float(r["tip"]), float(r["shaft"])]
+        by.setdefault(float(r["depth"]), {}).setdefault(r["cut"], []).append([*forces, sum(forces)])
+
+    def cells(depth):
+        cuts = [list(zip(*packings)) for packings in by[depth].values()]    # cut, part, packing
+        told = [f"{statistics.fmean(values):.3g} ± {statistics.stdev(values):.2g}" for values in cuts[0]]
+        apart = max(abs(a - b) for each in zip(*cuts) for values in zip(*each) for a in values for b in values)
+        return [f"{1000 * depth:g}", *told, f"{apart:.2g}" if apart else "same digits"]
+    return table(list(by), ["depth, mm", "tip, N", "shaft, N", "both, N", "cuts differ by, N"], cells)
 
 
 def validation_lammps(rows):
@@ -773,9 +789,11 @@ def tables():
                      "figures": paper_figures(study_cpu, study_cuda), "formula-5": paper_formula5(study_cpu)},
         "validation.md": {"validation-short": validation_in_short(validation_rows()), "validation": validation_cases(validation_rows()),
                           "validation-minutes": validation_cases(validation_rows("validation_minutes_cpu.tsv")),
+                          "validation-host": validation_cases(validation_rows("validation_host_cpu.tsv")),
+                          "validation-plate": validation_plate(rows_of("validation_plate_cpu.csv")),
                           "validation-lammps-short": validation_lammps_in_short(validation_rows("validation_lammps_yaml.tsv")),
                           "validation-lammps": validation_lammps(validation_rows("validation_lammps_yaml.tsv")),
-                          "validation-liggghts": validation_liggghts(validation_rows("validation_liggghts.tsv"))},
+                          "validation-others": validation_others(validation_rows("validation_others.tsv"))},
         "../README.md": {"two-triangles": two_triangles(study_cuda, vessel["cpu"]), "accuracy-time": time_in_short(vessel),
                          "validation-promise": validation_promise(validation_rows()), "effects-short": costs_for_readme(effects[0])},
     }

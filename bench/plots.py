@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """The pictures of pages.py: plots of doc/data."""
+import math
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -292,7 +294,7 @@ def draw_figures(rows_by_device):
 # ---- validation.md -------------------------------------------------------------------------
 
 MARKERS = {"Chung": dict(marker="s", color="#D55E00"), "experiment": dict(marker="D", color="#009E73"), "MFiX": dict(marker="x", color="#CC79A7"),
-           "FEM": dict(marker="D", color="#009E73")}
+           "FEM": dict(marker="D", color="#009E73"), "Anand": dict(marker="s", color="#D55E00")}
 
 
 def draw_validation(ours, published):
@@ -315,7 +317,42 @@ def draw_validation(ours, published):
     write_image(figure, "validation_oblique.png", 80)
 
 
+def draw_beds(ours, published, plate):
+    """Loads and flows of beds beside Janssen's and Beverloo's laws and published points; forces on a plate in five packings."""
+    figure, ((janssen, beverloo), (flat, driven)) = plt.subplots(2, 2, figsize=(13, 10))
+
+    def points(name, rows=ours):
+        return list(zip(*((float(r["x"]), float(r["value"])) for r in rows if r["curve"] == name)))
+    x = [0.02 * k for k in range(201)]
+    janssen.plot(x, [1 - math.exp(-m) for m in x], color="#D55E00", label="Janssen's law")
+    janssen.plot(*points("Janssen, load over M8"), linestyle="", marker="o", color="#0072B2", label="LSDCD, floor sinking")
+    janssen.set(xlabel="mass in the tube, over M8", ylabel="load on the floor, over M8")
+    roots = points("Beverloo, (flow/density)^(2/5)")
+    beverloo.plot(*roots, linestyle="", marker="o", color="#0072B2", label="LSDCD")
+    x = [1.4 + 0.1 * k for k in range(62)]
+    beverloo.plot(x, [0.58 ** 0.4 * (outlet - 1.4) for outlet in x], color="#D55E00", label="Beverloo's law, C = 0.58, k = 1.4")
+    beverloo.set(xlabel="outlet, in grains", ylabel="(flow/density)^(2/5)")
+    name = "flat-bottomed hopper, mass that has left"
+    for rows, words in ((ours, dict(color="#0072B2", label="LSDCD")), (published, dict(linestyle="", fillstyle="none", label="Anand et al. 2008", **MARKERS["Anand"]))):
+        times, masses = points(name, rows)
+        flat.plot(times, [1000 * m for m in masses], **words)
+    begin, mass = next((float(r["x"]), 1000 * float(r["value"])) for r in ours if r["curve"] == name and float(r["x"]) > 0.142)
+    flat.plot([begin, 0.6], [mass, mass + 91.73 * (0.6 - begin)], color="black", linestyle="--", label="91.73 g/s, lethe's flow")
+    flat.set(xlabel="time since the gate opens, s", ylabel="mass that has left, g")
+    for part, colour in (("tip", "#0072B2"), ("shaft", "#009E73")):
+        for packing in dict.fromkeys(r["packing"] for r in plate):
+            its = [r for r in plate if r["packing"] == packing and r["cut"] == plate[0]["cut"]]
+            driven.plot([1000 * float(r["depth"]) for r in its], [float(r[part]) for r in its], color=colour, label=f"{part}, five packings" if packing == plate[0]["packing"] else None)
+    driven.set(xlabel="depth of the tip, mm", ylabel="force on the plate, N")
+    for axis in (janssen, beverloo, flat, driven):
+        axis.legend(fontsize=FONT - 3)
+        legible(axis)
+    figure.tight_layout()
+    write_image(figure, "validation_beds.png", 70)
+
+
 def draw_all():
+    draw_beds(rows_of("validation_minutes_curves_cpu.csv"), rows_of("validation_published.csv"), rows_of("validation_plate_cpu.csv"))
     draw_validation(rows_of("validation_curves_cpu.csv"), rows_of("validation_published.csv"))
     draw_mesh_size(both("mesh-size"))
     draw_effects(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))

@@ -77,7 +77,10 @@ const std::vector<OutputRow> &energy_outputs()
        "power that contacts between grains dissipate in the step: damping, slider, rolling, "
        "twisting, adhesion",
        "energy/time"},
-      {5, "dissipated", kCauseNames, "likewise energy since the beginning", "energy"},
+      {5, "dissipated", kCauseNames,
+       "energy that contacts between grains have dissipated since the beginning: damping, slider, "
+       "rolling, twisting, adhesion",
+       "energy"},
       {4, "lost", kOtherLossNames,
        "energy that is lost by lever arms, stiffness, turned springs, and with contacts that are "
        "inserted and deleted",
@@ -95,7 +98,9 @@ const std::vector<OutputRow> &energy_outputs()
       {1, "drive_work", "", "work of the moving meshes and their surfaces on the grains", "energy"},
       {1, "dissipated_power_plastic", "",
        "power that contacts between grains dissipate by yielding", "energy/time"},
-      {1, "dissipated_plastic", "", "likewise energy since the beginning", "energy"},
+      {1, "dissipated_plastic", "",
+       "energy that contacts between grains have dissipated since the beginning by yielding",
+       "energy"},
       {1, "balance", "",
        "the scalar: 18 + 19 + 20 + 21 less 22, which keeps its value but for the remainders",
        "energy"}};

@@ -11,7 +11,8 @@ import yielding
 from suite import CASES
 
 ORDER = ("hertz-wall", "hertz-pair", "restitution", "bouncing", "oblique", "oblique-normal", "spinning", "spinning-pair", "slip-roll", "incline", "rolling",
-         "held", "spin-down", "pressed", "held-force", "jkr", "bridge", "yielding", "yielding-pair", "janssen", "beverloo", "mill")
+         "held", "spin-down", "pressed", "held-force", "jkr", "bridge", "yielding", "yielding-pair", "janssen", "beverloo", "flat-hopper", "mill",
+         "heat-pair", "heat-wall")
 assert sorted(ORDER) == sorted(CASES), "a case is missing in the order of the page"
 CASES = {name: CASES[name] for name in ORDER}
 MODULES = (impacts, rolling, resting, yielding, beds)

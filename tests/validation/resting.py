@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""Forces on grains that are held: two grains between walls, and adhesion."""
+"""Grains that are held: two between walls, adhesion, and heat."""
 
 import math
 
 import lmp
-from suite import AT_MESHES, G, Grain, Seen, case, fly
+from suite import AT_MESHES, BETWEEN_GRAINS, G, HOST, Grain, Seen, case, fly
 
 
 @case("pressed", "Two grains pressed between two walls (MFiX DEM03)")
@@ -111,3 +111,50 @@ def bridge(setting):
     work = sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(pulled, pulled[1:]))
     yield Seen("work of the pull until it breaks", "J", work, exact, "closed form of its integral", 1e-4,
                "the last step before it breaks, 1/3600 of the way, has a pull of less than a third of the mean")
+
+
+# ---- heat ------------------------------------------------------------------------------------
+
+HEATS = {"radius": ("2 k a dT (Vargas and McCarthy 2001)", lambda k, a: 2 * k * a), "area": ("h pi a^2 dT", lambda h, a: h * math.pi * a * a)}
+CAPACITY, CONDUCTIVITY = 800.0, {"radius": 50.0, "area": 1e6}
+EULER = 2000    # steps of fix heat/flow in which a difference of temperatures falls to 1/e
+
+
+def warmed(setting, grains, law, temperatures, wall, dt, rate, pair_law=""):
+    """Temperatures of grains at rest after a time 1/rate."""
+    fixes = "fix kept all property/atom temperature heatflow ghost yes\n" + "".join(f"set atom {i} temperature {t!r}\n" for i, t in enumerate(temperatures, 1))
+    columns = [f"c_t{i}" for i in range(1, len(grains) + 1)]
+    fixes += (f"fix heat all heat/flow constant {CAPACITY!r}\ncompute t all property/atom temperature\n" + wall +
+              "".join(f"group g{i} id {i}\ncompute t{i} g{i} reduce sum c_t\n" for i in range(1, len(grains) + 1)))
+    assert abs(EULER * dt * rate - 1) < 1e-9
+    return fly(setting, grains, (-0.02, 0.02, -0.02, 0.02, -0.02, 0.02), fixes, dt, EULER, move="move linear 0 0 0 units box", pair_law=pair_law, columns=columns)[1]
+
+
+EXPLICIT = "fix heat/flow takes explicit steps: (1 - 1/n)^n is 1/e less 1/2n of it, n = 2000; and 4 % of that"
+
+
+@case("heat-pair", "Heat between two grains in contact", BETWEEN_GRAINS, HOST)
+def heat_pair(setting):
+    """Two unlike grains, held at an overlap: their difference falls by a rate that is the conductance over each heat capacity."""
+    overlap = 2e-6
+    a, b = Grain((0, 0, 0), 1e-3, 2500.0), Grain((0, 0, 2.5e-3 - overlap), 1.5e-3, 4000.0)
+    radius = math.sqrt(a.radius * b.radius / (a.radius + b.radius) * overlap)
+    for word, (source, conductance) in HEATS.items():
+        law = f"hertz/material 1e7 0.0 0.3 tangential linear_nohistory 0.0 0.0 damping velocity heat {word} {CONDUCTIVITY[word]!r}"
+        rate = conductance(CONDUCTIVITY[word], radius) / CAPACITY * (1 / a.mass + 1 / b.mass)
+        t = warmed(setting, (a, b), law, (400.0, 300.0), "", 1 / rate / EULER, rate, pair_law=law)
+        yield Seen(f"heat {word}: difference of temperatures after 1/rate, over that of the beginning", "1", (t[0] - t[1]) / 100.0, math.exp(-1), source, 1.04 / 2 / EULER, EXPLICIT)
+        yield Seen(f"heat {word}: heat of both, over that of the beginning", "1", (a.mass * t[0] + b.mass * t[1]) / (a.mass * 400 + b.mass * 300), 1.0,
+                   "conservation of energy", 1e-12, "round-off of 2000 steps")
+
+
+@case("heat-wall", "Heat from a wall into a grain", takes=HOST)
+def heat_wall(setting):
+    """A grain held at an overlap, at a wall of another temperature."""
+    overlap = 2e-6
+    grain = Grain((0, 0, 1e-3 - overlap), 1e-3, 2500.0)
+    for word, (source, conductance) in HEATS.items():
+        law = f"hertz/material 1e7 0.0 0.3 tangential linear_nohistory 0.0 0.0 damping velocity heat {word} {CONDUCTIVITY[word]!r}"
+        rate = conductance(CONDUCTIVITY[word], math.sqrt(grain.radius * overlap)) / CAPACITY / grain.mass
+        t = warmed(setting, (grain,), law, (300.0,), setting.floor(law, 0.01, keywords="temperature 400.0"), 1 / rate / EULER, rate)
+        yield Seen(f"heat {word}: what is left of the difference after 1/rate", "1", (400.0 - t[0]) / 100.0, math.exp(-1), source, 1.04 / 2 / EULER, EXPLICIT)

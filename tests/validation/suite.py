@@ -19,9 +19,10 @@ import stl
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 DATA = ROOT / "doc" / "data"
 CURVES = DATA / "validation_curves_cpu.csv"
-# How long cases take, and where their rows are kept.
-SECONDS, MINUTES = "seconds", "minutes"
-KEPT = {SECONDS: DATA / "validation_cpu.tsv", MINUTES: DATA / "validation_minutes_cpu.tsv"}
+BED_CURVES = DATA / "validation_minutes_curves_cpu.csv"
+# How long cases take, or that they need LAMMPS of 2Aug2023 or later; and where their rows are kept.
+SECONDS, MINUTES, HOST = "seconds", "minutes", "host"
+KEPT = {SECONDS: DATA / "validation_cpu.tsv", MINUTES: DATA / "validation_minutes_cpu.tsv", HOST: DATA / "validation_host_cpu.tsv"}
 
 # LAMMPS's own flat wall, or its own law between grains; two triangles; 1600 slivers. Between grains, the second has pair_style granular/lsdcd.
 PLANE, TWO, SLIVERS = "LAMMPS", "two", "slivers"
@@ -49,6 +50,14 @@ class Seen:
 
 
 @dataclasses.dataclass
+class Point:
+    """A point of a curve that a case saw, for a picture of the page."""
+    curve: str
+    x: float
+    value: float
+
+
+@dataclasses.dataclass
 class Row:
     """What all walls of a case saw of a quantity; one of the page's table."""
     case: str
@@ -73,8 +82,8 @@ class Row:
         return all(self.deviation(wall) <= self.tolerance for wall in self.seen)
 
     def same_at_both_cuts(self):
-        """Whether both meshes gave the same bits, where both were run. Beds grow round-off, and need not."""
-        return CASES[self.case].takes == MINUTES or TWO not in self.seen or SLIVERS not in self.seen or self.seen[TWO] == self.seen[SLIVERS]
+        """Whether both meshes gave the same bits, where both were run. Beds grow round-off, and need not where a case does not say so."""
+        return not CASES[self.case].same_bits or TWO not in self.seen or SLIVERS not in self.seen or self.seen[TWO] == self.seen[SLIVERS]
 
 
 @dataclasses.dataclass
@@ -82,30 +91,43 @@ class Case:
     name: str
     title: str
     walls: tuple
-    takes: str    # SECONDS or MINUTES
+    takes: str    # SECONDS, MINUTES or HOST
     function: object
+    same_bits: bool    # whether both cuts of a mesh have to give the same bits
+
+    def runs_here(self):
+        """Whether this LAMMPS has what the case needs."""
+        return self.takes != HOST or lmp.version() >= 20230802
 
 
 CASES = {}
 
 
-def case(name, title, walls=AT_WALLS, takes=SECONDS):
-    """Decorates the function of a case, and lists it."""
+def case(name, title, walls=AT_WALLS, takes=SECONDS, same_bits=None):
+    """Decorates the function of a case, and lists it. Without `same_bits` those of a bed may differ."""
     def listed(function):
-        CASES[name] = Case(name, title, walls, takes, function)
+        CASES[name] = Case(name, title, walls, takes, function, takes != MINUTES if same_bits is None else same_bits)
         return function
     return listed
 
 
-def run_case(name, folder, only=None):
-    """The rows of a case, whose files go to the folder. `only`: a wall, where the others are left out."""
+def run_case(name, folder, only=None, points=None):
+    """The rows of a case, whose files go to the folder. `only`: a wall, where the others are left out. The list `points` gets the Points of each
+    curve at the first wall that is run."""
     write_floors(folder)
-    rows = {}
+    rows, curves = {}, {}
     for wall in reversed(CASES[name].walls if only is None else [only]):    # a mesh has all quantities, LAMMPS's own wall not all
         for s in CASES[name].function(Setting(wall, folder)):
+            if isinstance(s, Point):
+                curves.setdefault(s.curve, (wall, []))
+                if curves[s.curve][0] == wall:
+                    curves[s.curve][1].append(s)
+                continue
             row = rows.setdefault(s.quantity, Row(name, s.quantity, s.unit, s.expected, s.source, {}, s.tolerance, s.reason, s.absolute))
             assert (row.expected, row.tolerance) == (s.expected, s.tolerance), f"{name}: {s.quantity} is expected to depend on the wall"
             row.seen[wall] = s.seen
+    if points is not None:
+        points += [point for _, its in curves.values() for point in its]
     return list(rows.values())
 
 
@@ -161,11 +183,11 @@ class Setting:
         self.wall, self.folder = wall, folder
         self.is_mesh = wall != PLANE
 
-    def floor(self, law, half, more=""):
-        """Lines with a wall across z at 0, a square of this half side where it is a mesh."""
+    def floor(self, law, half, more="", keywords=""):
+        """Lines with a wall across z at 0, a square of this half side where it is a mesh. `more`: words of a mesh; `keywords`: of any wall."""
         if not self.is_mesh:
-            return lmp.flat_walls(f"fix wall all wall/gran granular {law} zplane 0 NULL")
-        return f"fix wall all wall/lsdcd granular {law} mesh {self.wall}.stl scale {half!r} {more}\n"
+            return lmp.flat_walls(f"fix wall all wall/gran granular {law} zplane 0 NULL {keywords}")
+        return f"fix wall all wall/lsdcd granular {law} mesh {self.wall}.stl scale {half!r} {keywords} {more}\n"
 
     def gravity(self, size=G, direction="0 0 -1"):
         return f"fix gravity all gravity{'/lsdcd' if self.is_mesh else ''} {size!r} vector {direction}\n"

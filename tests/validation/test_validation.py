@@ -19,6 +19,8 @@ ONLY = os.environ.get("LSDCD_VALIDATION_WALL")
 
 @pytest.mark.parametrize("name", CASES)
 def test_case(name, folder):
+    if not CASES[name].runs_here():
+        pytest.skip("fix heat/flow is of LAMMPS 2Aug2023")
     kept = {row["quantity"]: row for row in suite.kept_rows() if row["case"] == name}
     rows = suite.run_case(name, folder, ONLY)
     seen = [r.quantity for r in rows]

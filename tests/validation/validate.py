@@ -6,12 +6,13 @@
 
 usage: validate.py [--list] [--minutes] [--keep] [--tsv] [--jobs N] [--commit NAME] [CASE ...]
 
-Without names it runs the cases of seconds, or with --minutes those of minutes. --keep also puts the rows into doc/data and the table into the page. It ends with 1 if a number is out of its
-tolerance, or if two cuts of a plane give other bits. LSDCD_LMP names another lmp-lsdcd than that of build/; LSDCD_ON_HOST, LSDCD_HOST and
-the others of tests/lammps/lmp.py another LAMMPS, as one with Kokkos.
+Without names it runs the cases of seconds, or with --minutes those of minutes, and in a LAMMPS of 2Aug2023 or later those of heat, too. --keep also puts the rows into doc/data and the
+table into the page; of named cases these rows alone. It ends with 1 if a number is out of its tolerance, or if two cuts of a plane give other bits. LSDCD_LMP names another lmp-lsdcd than that of
+build/; LSDCD_ON_HOST, LSDCD_HOST and the others of tests/lammps/lmp.py another LAMMPS, as one with Kokkos.
 """
 import argparse
 import concurrent.futures
+import csv
 import os
 import pathlib
 import subprocess
@@ -25,14 +26,14 @@ sys.path[:0] = [str(HERE.parent), str(HERE.parent / "lammps"), str(HERE.parent.p
 import rows as bench_rows
 from cases import CASES
 from impacts import curves
-from suite import AT_WALLS, CURVES, KEPT, MINUTES, SECONDS, as_table, run_case
+from suite import AT_WALLS, BED_CURVES, CURVES, KEPT, MINUTES, SECONDS, Point, as_table, run_case
 
 
 def measure(name):
-    """The rows of a case, and the seconds that it took."""
-    begin = time.monotonic()
+    """The rows of a case, the points of its curves, and the seconds that it took."""
+    begin, points = time.monotonic(), []
     with tempfile.TemporaryDirectory(prefix="lsdcd-") as folder:
-        return run_case(name, pathlib.Path(folder)), time.monotonic() - begin
+        return run_case(name, pathlib.Path(folder), points=points), points, time.monotonic() - begin
 
 
 def said_of(row):
@@ -56,18 +57,32 @@ def show(case, rows, seconds):
             print(f"  {what}: {each}")
 
 
-def keep(rows, takes, commit):
-    """Puts the rows into doc/data, with those of seconds the curves, too, and the tables into the page."""
-    KEPT[takes].write_text(f"# commit {commit}, {bench_rows.cpu()}\n" + as_table(rows))
-    if takes == SECONDS:
-        keep_curves(commit)
+def keep(rows, points, names, commit):
+    """Puts the rows of these cases into doc/data, with the curves of those that have some, and the tables into the page."""
+    for takes, path in KEPT.items():
+        all_names = [case.name for case in CASES.values() if case.takes == takes]
+        its = [name for name in all_names if name in names]
+        if not its:
+            continue
+        columns, *new = as_table([r for r in rows if r.case in its]).splitlines()
+        old = [] if its == all_names or not path.exists() else path.read_text().splitlines()
+        measured = f"# commit {commit}, {bench_rows.cpu()}" if not old else f"{old[0]}, {', '.join(its)} at {commit}"
+        lines = [line for line in old[2:] if line.split("\t")[0] not in its] + new
+        lines.sort(key=lambda line: all_names.index(line.split("\t")[0]))
+        path.write_text("\n".join([measured, columns, *lines]) + "\n")
+        if takes == SECONDS:
+            with tempfile.TemporaryDirectory(prefix="lsdcd-") as folder:
+                keep_points(CURVES, [Point(*point) for point in curves(pathlib.Path(folder))], commit)
+    if points:
+        keep_points(BED_CURVES, points, commit)
     subprocess.run([sys.executable, str(HERE.parent.parent / "bench" / "pages.py")], check=True)
 
 
-def keep_curves(commit):
-    with tempfile.TemporaryDirectory(prefix="lsdcd-") as folder:
-        points = [dict(curve=curve, x=f"{x:g}", value=f"{value:.6g}", commit=commit) for curve, x, value in curves(pathlib.Path(folder))]
-    CURVES.write_text(bench_rows.as_csv(points))
+def keep_points(path, points, commit):
+    """Puts these points into the file, in place of those that it has of the same curves."""
+    own = {p.curve for p in points}
+    old = [row for row in csv.DictReader(path.read_text().splitlines()) if row["curve"] not in own] if path.exists() else []
+    path.write_text(bench_rows.as_csv(old + [dict(curve=p.curve, x=f"{p.x:g}", value=f"{p.value:.6g}", commit=commit) for p in points]))
 
 
 def main():
@@ -84,14 +99,14 @@ def main():
         print("\n".join(f"{case.name:16} {case.takes:8} {case.title}" for case in CASES.values()))
         return 0
     unknown = [name for name in args.names if name not in CASES]
-    if unknown or args.keep and args.names:
-        parser.error(f"no case '{unknown[0]}'; --list names them" if unknown else "--keep is for all cases")
-    begin, rows, bad = time.monotonic(), [], 0
+    if unknown:
+        parser.error(f"no case '{unknown[0]}'; --list names them")
+    begin, rows, points, bad = time.monotonic(), [], [], 0
     with concurrent.futures.ProcessPoolExecutor(args.jobs) as pool:
-        takes = MINUTES if args.minutes else SECONDS
-        names = args.names or [case.name for case in CASES.values() if case.takes == takes]
-        for name, (its, seconds) in zip(names, pool.map(measure, names)):
+        names = args.names or [case.name for case in CASES.values() if (case.takes == MINUTES) == args.minutes and case.runs_here()]
+        for name, (its, curve, seconds) in zip(names, pool.map(measure, names)):
             rows += its
+            points += curve
             bad += sum(not (r.holds() and r.same_at_both_cuts()) for r in its)
             if not args.tsv:
                 show(CASES[name], its, seconds)
@@ -100,7 +115,7 @@ def main():
     else:
         print(f"\n{len(rows)} numbers of {len(names)} cases: {bad or 'none'} out of tolerance or other at another cut ({time.monotonic() - begin:.0f} s)")
     if args.keep:
-        keep(rows, takes, args.commit)
+        keep(rows, points, names, args.commit)
     return 1 if bad else 0
 
 
