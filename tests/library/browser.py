@@ -22,7 +22,7 @@ class Browser:
         """The expression's value, once it is true."""
         return self.once(expression, bool, what)
 
-    def once(self, expression, is_it=lambda value: True, what="an answer"):
+    def once(self, expression, is_it=lambda value: value is not None, what="an answer"):
         """The expression's value, once it has one of this kind. A page that is being loaded has none."""
         end = time.time() + LONG
         while time.time() < end:
