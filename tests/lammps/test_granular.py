@@ -120,10 +120,11 @@ dump_modify     {file} format float %.17g sort id
 """
 
 
-def script(scene, wall, steps, every, more="", columns="", thermo=100000):
-    dumps = DUMP.format(file="out", group="all", every=every, columns=columns)
+def script(scene, wall, steps, every, more="", columns="", thermo=100000, number=""):
+    """`number` stands behind the names of its dumps."""
+    dumps = DUMP.format(file=f"out{number}", group="all", every=every, columns=columns)
     if "group one" in scene:
-        dumps += DUMP.format(file="one", group="one", every=1, columns=columns)
+        dumps += DUMP.format(file=f"one{number}", group="one", every=1, columns=columns)
     return f"""\
 {scene}
 pair_style      zero 1.3
@@ -144,19 +145,26 @@ def run(folder, *words, **more):
     return lmp.read_dump(folder / "out")
 
 
-def compare(folder, name, ours, hosts, **settings):
-    """One sphere in each step, and 200 in each 20th, as a contact takes 100 or so."""
+def compare_all(folder, laws, **settings):
+    """{name: (ours, the host's)}: one sphere in each step, and 200 in each 20th, as a contact takes 100 or so."""
     scene, every, files = (ONE, 1, {"one sphere": "out"}) if lmp.QUICK else (many_and_one(), 20, {"one sphere": "one", "200 spheres": "out"})
 
-    def dumps(wall):
-        lmp.run_well(script(scene, wall, 1000, every, **settings), folder)
-        return {title: lmp.read_dump(folder / file) for title, file in files.items()}
+    def dumps(walls):
+        lmp.run_in_a_row([script(scene, wall, 1000, every, number=k, **settings) for k, wall in enumerate(walls)], folder)
+        for k in range(len(walls)):
+            yield {title: lmp.read_dump(folder / f"{file}{k}") for title, file in files.items()}
 
-    plane, mesh = dumps(f"wall/gran granular {hosts}"), dumps(f"wall/lsdcd granular {ours}")
-    for title in files:
-        touching = sum(row[12] != 0 for rows in plane[title].values() for row in rows.values())    # torque
-        fact(f"{name}, {title}: they touch", touching > 100, str(touching))
-        at_most(f"{name}, {title}", lmp.largest_difference(plane[title], mesh[title]), 1e-12)
+    meshes = list(dumps([f"wall/lsdcd granular {ours}" for ours, _ in laws.values()]))
+    planes = dumps([f"wall/gran granular {hosts}" for _, hosts in laws.values()])
+    for name, plane, mesh in zip(laws, planes, meshes):
+        for title in files:
+            touching = sum(row[12] != 0 for rows in plane[title].values() for row in rows.values())    # torque
+            fact(f"{name}, {title}: they touch", touching > 100, str(touching))
+            at_most(f"{name}, {title}", lmp.largest_difference(plane[title], mesh[title]), 1e-12)
+
+
+def compare(folder, name, ours, hosts, **settings):
+    compare_all(folder, {name: (ours, hosts)}, **settings)
 
 
 HEAT = """\
@@ -268,19 +276,18 @@ def test_older_host(folder):
     and its NULL for kt means something else. Its dmt limits friction by a number that it
     never sets, and its jkr lets go before it should, inside of touch: both are left out."""
     nu = 0.3
-    for name, law in {
-            "hooke": f"hooke 1e4 5 {SLIDE} damping mass_velocity",
-            "hertz": f"hertz 5e4 40 {SLIDE} rolling sds 2e3 5 0.08",
-            "hertz/material": f"hertz/material 1e5 40 {nu} {SLIDE}",
-            "marshall on mindlin": "hertz 5e4 40 tangential mindlin 2e4 0.6 0.4 twisting marshall",
-            "mindlin_rescale": "hertz 5e4 40 tangential mindlin_rescale 2e4 0.6 0.4",
-            "mindlin_rescale/force": "hertz 5e4 40 tangential mindlin_rescale/force 2e4 0.6 0.4",
-            "twisting sds": f"hertz 5e4 40 {SLIDE} twisting sds 50 0.4 0.02"}.items():
-        compare(folder, f"29Sep2021, {name}", f"{law} mesh floor.stl",
-                law.replace(" 1e5 ", f" {1e5 / (1 + nu):.17g} ") + " zplane 0.0 NULL")
+    laws = {
+        "hooke": f"hooke 1e4 5 {SLIDE} damping mass_velocity",
+        "hertz": f"hertz 5e4 40 {SLIDE} rolling sds 2e3 5 0.08",
+        "hertz/material": f"hertz/material 1e5 40 {nu} {SLIDE}",
+        "marshall on mindlin": "hertz 5e4 40 tangential mindlin 2e4 0.6 0.4 twisting marshall",
+        "mindlin_rescale": "hertz 5e4 40 tangential mindlin_rescale 2e4 0.6 0.4",
+        "mindlin_rescale/force": "hertz 5e4 40 tangential mindlin_rescale/force 2e4 0.6 0.4",
+        "twisting sds": f"hertz 5e4 40 {SLIDE} twisting sds 50 0.4 0.02"}
+    compare_all(folder, {f"29Sep2021, {name}": (f"{law} mesh floor.stl", law.replace(" 1e5 ", f" {1e5 / (1 + nu):.17g} ") + " zplane 0.0 NULL")
+                         for name, law in laws.items()})
 
 
 @NEWER
 def test_laws(folder):
-    for name, (ours, hosts) in pairs_of_laws().items():
-        compare(folder, name, f"{ours} mesh floor.stl", f"{hosts} zplane 0.0 NULL")
+    compare_all(folder, {name: (f"{ours} mesh floor.stl", f"{hosts} zplane 0.0 NULL") for name, (ours, hosts) in pairs_of_laws().items()})
