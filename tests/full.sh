@@ -20,11 +20,14 @@ arm64_packages=(
   qemu-user                            # runs what was compiled
 )
 
-# Of the groups of CUDA laws that book energy or count impacts, which compile the same law in three frames, each day has one.
+# Of what takes turns, tests by LSDCD_DAY and groups of CUDA laws, each day has a third and a release all: 0, 1 or 2.
+day() { echo $(($(date +%s) / 86400 % 3)); }
+
+# Those groups compile the same sub-models, the first ones of each line the same law in another frame.
 laws_of_other_days() {
-  local groups=(energy energy_records impacts)
-  unset "groups[$(($(date +%s) / 86400 % 3))]"
-  echo "^cuda_($(IFS='|'; echo "${groups[*]}"))\$"
+  local groups=("energy granular plastic" "energy_records granular_added reaching" "impacts added on_wall")
+  unset "groups[$(day)]"
+  echo "^cuda_($(tr ' ' '|' <<<"${groups[*]}"))\$"
 }
 
 # Prints the option by which nvcc compiles fast what nothing runs, or what comes near to it before CUDA 13.
@@ -34,9 +37,12 @@ quick_ptx() { if PATH=$PATH:/usr/local/cuda/bin nvcc --help 2>/dev/null | grep -
 # bench.test_kernel_sizes has sizes for, and kernels of moving walls are for a release. Nothing runs other laws there: with little
 # optimisation they compile in a third of the time, and the host's half of them, which starts kernels, in half.
 test_all() {
-  local folder=build/all kinds=() text hosts=() options=(-D LSDCD_TESTS=ON -D LSDCD_RELEASE="$whole") laws='on_wall|plain' left_out=
+  local folder=build/all kinds=() text hosts=() options=(-D LSDCD_TESTS=ON -D LSDCD_RELEASE="$whole") laws='on_wall|plain' left_out= today=
+  # LAMMPS needs none of the packages that are installed meanwhile. build_all.sh below waits for it, and says what went wrong.
+  if [ $whole = OFF ]; then tests/lammps/hosts/build_host.sh >/dev/null 2>&1 </dev/null & fi
   need_each "${test_all_packages[@]}"
-  if [ $whole = OFF ]; then laws='^plain$' left_out=$(laws_of_other_days); fi
+  if [ $whole = OFF ]; then laws='^plain$' left_out=$(laws_of_other_days) today=$(day); fi
+  options+=(-D LSDCD_DAY="$today")
   have_gpu || options+=(-D CMAKE_CUDA_ARCHITECTURES=90 -D LSDCD_MACHINE_LAWS="$laws" -D LSDCD_LEAVE_OUT="$left_out"
     -D LSDCD_PTX_OPTIONS="$(quick_ptx);-Xcompiler=-O1")
   say "configure"
