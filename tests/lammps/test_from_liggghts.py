@@ -39,6 +39,21 @@ SIZE = "set group all diameter 0.02 density 2500\n"
 ONE_GRAIN = "create_atoms 1 single 0 0 0\n"
 FILL = "fix i all insert/pack seed 7 distributiontemplate d "
 NINE = FILL + "particles_in_region 9 region r\n"
+HYSTERESIS = SPEED + SIZE + """\
+fix y1 all property/global coefficientMaxElasticStiffness peratomtypepair 1 5
+fix y2 all property/global coefficientAdhesionStiffness peratomtypepair 1 0
+fix y3 all property/global coefficientPlasticityDepth peratomtypepair 1 0.01
+"""
+EDINBURGH = SIZE + """\
+fix y4 all property/global UnloadingStiffness peratomtypepair 1 4
+fix y5 all property/global overlapExponent scalar 1
+fix y6 all property/global adhesionExponent scalar 2
+fix y7 all property/global pullOffForce peratomtypepair 1 0
+fix y8 all property/global surfaceEnergy peratomtypepair 1 20
+"""
+# Of a wall and a grain, and of two grains: E* is 1e7/(2 (1 - 0.09)), the mass 2500 pi/6 0.02^3.
+K1_WALL, K1_PAIR = 2 * 1e7 / 1.82 * 0.01, 2 * 1e7 / 1.82 * 0.005
+PAIR = "pair_style gran model {}\npair_coeff * *\n"
 TWO_TYPES = """\
 fix n1 all property/global youngsModulus peratomtype 1e7 1e7
 fix n2 all property/global poissonsRatio peratomtype 0.3 0.3
@@ -79,6 +94,17 @@ WRITTEN = {
         TWO_TYPES + "fix k all property/global k_finnie peratomtypepair 2 4e-9 1e-9 1e-9 0\n" + MESH.format("wear finnie") +
         LID.replace("type 1", "type 2").replace("\n", "wear finnie\n") + BOTH_WALL + ONE_GRAIN,
         "wear finnie 8e-09 &\n                mesh a.stl &\n                mesh b.stl wear_factor 0.25\n"),
+    "edinburgh has no adhesion at a mesh": (
+        ELASTIC + EDINBURGH + MESH.format("") + WALL.replace("hertz", "edinburgh"),
+        f"wall/lsdcd granular eepa {K1_WALL:.10g} 1 0.75 0 1 1 0 damping coeff_restitution tangential mindlin_liggghts {2e7 / 1.82:.10g} 1 0.4 &\n"),
+    "edinburgh between grains that do not adhere": (
+        EDINBURGH.replace(" 1 20", " 1 0") + PAIR.format("edinburgh tangential history limitForce off"),
+        f"law granular eepa {K1_PAIR:.10g} 0.5 0.75 0 1 1 0 damping coeff_restitution tangential mindlin_liggghts {2e7 / 1.82:.10g} 1 0.4\n"),
+    "hooke/hysteresis has half the depth between grains": (
+        HYSTERESIS + PAIR.format("hooke/hysteresis tangential history rolling_friction off"), " 0 0.005 damping velocity tangential linear_history_liggghts "),
+    "hooke/hysteresis that pulls, without friction": (
+        HYSTERESIS.replace("peratomtypepair 1 0\n", "peratomtypepair 1 2\n") + MESH.format("") + WALL.replace("hertz tangential history", "hooke/hysteresis"),
+        " 0.01 damping velocity tangential linear_nohistory 0 0 &\n"),
     "meshes are written by the wall": (ON_MESH + "dump d all mesh/stl 300 post/dump*.stl\n", "mesh_stl post/dump_cad_*.stl every 300"),
     "the files of a mesh have one line between words": (
         MESH.format("") + WALL + "dump d all mesh/vtk 300 post/mesh_*.vtk stress\n", "mesh_fields post/mesh_cad_*.vtp every 300"),
@@ -228,6 +254,27 @@ WRITTEN = {
 }
 # Commands that stay, and the reason.
 LEFT = {
+    "luding": (HYSTERESIS + PAIR.format("luding tangential history")[:-15], "model luding, which keeps its slope along the adhesive branch"),
+    "hooke/hysteresis that pulls, with friction": (
+        HYSTERESIS.replace("peratomtypepair 1 0\n", "peratomtypepair 1 2\n") + MESH.format("") + WALL.replace("hertz", "hooke/hysteresis"),
+        "model hooke/hysteresis with a coefficientAdhesionStiffness above 0 and friction"),
+    "hooke/hysteresis at a plane": (
+        HYSTERESIS + "fix p all wall/gran model hooke/hysteresis tangential history primitive type 1 zplane 1\n", "model hooke/hysteresis of a plane or cylinder"),
+    "edinburgh whose slope of adhesion changes": (ELASTIC + EDINBURGH + PAIR.format("edinburgh")[:-15], "model edinburgh with surfaceEnergy between grains"),
+    "edinburgh whose dashpot has the units of another power": (
+        EDINBURGH.replace("overlapExponent scalar 1", "overlapExponent scalar 1.5") + MESH.format("") + WALL.replace("hertz", "edinburgh"),
+        "model edinburgh with a coefficientRestitution below 1 and overlapExponent 1.5"),
+    "edinburgh whose force ends at 0": (EDINBURGH + MESH.format("") + WALL.replace("hertz", "edinburgh"), "model edinburgh with limitForce"),
+    "edinburgh with a pull-off force and friction": (
+        ELASTIC + EDINBURGH.replace("pullOffForce peratomtypepair 1 0", "pullOffForce peratomtypepair 1 -1") + MESH.format("") + WALL.replace("hertz", "edinburgh"),
+        "model edinburgh with pullOffForce and friction"),
+    "edinburgh with a slope that is given": (
+        ELASTIC + EDINBURGH + MESH.format("") + WALL.replace("hertz", "edinburgh").replace("\n", " fixKc on\n"), "model edinburgh with fixKc"),
+    "edinburgh with rolling that takes another unit": (
+        ELASTIC + ROLLS + EDINBURGH.replace("overlapExponent scalar 1", "overlapExponent scalar 1.5") + MESH.format("") +
+        WALL.replace("hertz", "edinburgh").replace("history", "history rolling_friction cdt"), "model edinburgh with rolling friction and overlapExponent 1.5"),
+    "a bridge of LIGGGHTS": (
+        MESH.format("") + WALL.replace("history", "history cohesion easo/capillary/viscous"), "cohesion easo/capillary/viscous, whose bridge has another formula"),
     "coarse grains, as the rules are others": ("coarsegraining 2\n", "coarsegraining, which multiplies kn and gamman by rules of its own"),
     "positions of pairs": ("compute p all pair/gran/local pos id\ndump d all local 9 d.txt c_p[1]\n", "column 1 of compute p pair/gran/local, which is pos"),
     "what follows the history of pairs": ("compute p all pair/gran/local\ndump d all local 9 d.txt c_p[22]\n", "column 22 of compute p pair/gran/local"),

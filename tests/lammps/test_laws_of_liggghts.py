@@ -87,18 +87,31 @@ dump            d all custom 10 {file} id x y z vx vy vz omegax omegay omegaz fx
 dump_modify     d sort id {format}
 run             1000
 """
+# Contacts that yield, with what LIGGGHTS reads for them.
+STIFFER, PULL, DEPTH = 4.0, 0.5, 0.004
+YIELDING = f"""\
+fix y1 all property/global coefficientMaxElasticStiffness peratomtypepair 1 {STIFFER}
+fix y2 all property/global coefficientAdhesionStiffness peratomtypepair 1 {{pull}}
+fix y3 all property/global coefficientPlasticityDepth peratomtypepair 1 {DEPTH}
+fix y4 all property/global UnloadingStiffness peratomtypepair 1 {STIFFER}
+fix y5 all property/global overlapExponent scalar {{n}}
+fix y6 all property/global adhesionExponent scalar {{n}}
+fix y7 all property/global pullOffForce peratomtypepair 1 0
+fix y8 all property/global surfaceEnergy peratomtypepair 1 {{surface}}
+fix m3 all property/global coefficientRestitution peratomtypepair 1 {{e}}
+"""
 OBLIQUE = {"mu": MU, "large_velocity": "0.2 0.1 0.4", "small_velocity": "-0.3 0.2 -0.5"}
 # Along the line of their centres, so that without friction the normal does not turn.
 HEAD_ON = {"mu": 0, "large_velocity": "0.05 0.04 0.405", "small_velocity": "-0.05 -0.04 -0.405"}
 FORMAT = '"%d' + " %.17g" * 15 + '"'
 
 
-def there(model, folder, impact):
+def there(model, folder, impact, more="", settings=""):
     (folder / "in.there").write_text(BOX.format(
-        style="granular", velocities="communicate single vel yes", laws=f"{PROPERTIES.format(**impact)}pair_style gran model {model}\npair_coeff * *",
+        style="granular", velocities="communicate single vel yes", laws=f"{PROPERTIES.format(**impact)}{more}pair_style gran model {model}{settings}\npair_coeff * *",
         hits="omegax 40 omegay -70 omegaz 90", rolls="omegax 6 omegay -3 omegaz 20", large="omegax -30 omegay 50 omegaz 20",
         small="omegax 10 omegay 80 omegaz -60",
-        wall=f"fix w all wall/gran model {model} primitive type 1 zplane 0.0", file="there.txt", format=f"format {FORMAT}", **impact))
+        wall=f"fix w all wall/gran model {model} primitive type 1 zplane 0.0{settings}", file="there.txt", format=f"format {FORMAT}", **impact))
     done = subprocess.run(["liggghts", "-in", "in.there", "-log", "none"], cwd=folder, text=True, errors="replace", stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, timeout=300)
     if done.returncode:
@@ -106,12 +119,13 @@ def there(model, folder, impact):
     return lmp.read_dump(folder / "there.txt")
 
 
-def here(law, folder, impact):
+def here(law, folder, impact, at_wall=None):
+    """The dump of the same grains with this law, `at_wall` with another one at the wall."""
     lmp.flat_floor(folder)
     lmp.run_well(BOX.format(
         style="sphere", velocities="comm_modify vel yes", laws=f"pair_style granular/lsdcd\npair_coeff * * {law.format(kn=KN['pair'], mu=impact['mu'])}",
         hits="omega 40 -70 90", rolls="omega 6 -3 20", large="omega -30 50 20", small="omega 10 80 -60",
-        wall=f"fix w all wall/lsdcd granular {law.format(kn=KN['wall'], mu=impact['mu'])} mesh floor.stl scale 0.1", file="here.txt",
+        wall=f"fix w all wall/lsdcd granular {(at_wall or law).format(kn=KN['wall'], mu=impact['mu'])} mesh floor.stl scale 0.1", file="here.txt",
         format=f"format line {FORMAT}", **impact), folder)
     return lmp.read_dump(folder / "here.txt")
 
@@ -125,7 +139,7 @@ def largest_difference(a, b):
             for k, (u, v) in enumerate(zip(rows[atom], b[step][atom])):
                 size[k // 3] = max(size[k // 3], abs(u))
                 apart[k // 3] = max(apart[k // 3], abs(u - v))
-        largest[atom] = max(d / s for d, s in zip(apart, size))
+        largest[atom] = max(d / s if s else d for d, s in zip(apart, size))
     return largest
 
 
@@ -146,3 +160,39 @@ def test_paths(folder, rolling):
         if rolling.startswith("epsd"):
             apart = largest_difference(there(model, folder, HEAD_ON), here(law, folder, HEAD_ON))
             at_most(f"{model}: two grains whose normal does not turn", max(apart[3], apart[4]), 1e-12)
+
+
+def hysteresis(at, pull):
+    """lepa for hooke/hysteresis: the depth counts twice between grains."""
+    kn, m = KN[at], {"wall": mass(RADIUS), "pair": 1 / (1 / mass(RADIUS) + 1 / mass(SMALL))}[at]
+    eta = -2 * math.log(E) / math.hypot(math.log(E), math.pi) * math.sqrt(kn * m)
+    return (f"lepa {kn!r} {eta!r} {STIFFER * kn!r} {pull * kn!r} {DEPTH / (2 if at == 'pair' else 1)} damping velocity "
+            f"tangential linear_history_liggghts {kn!r} 1 {{mu}}")
+
+
+@pytest.mark.parametrize("impact, pull", [(OBLIQUE, 0.0), ({**OBLIQUE, "mu": 0}, PULL)], ids=["friction", "pull"])
+def test_hysteresis(folder, impact, pull):
+    more = YIELDING.format(pull=pull, n=1, surface=0, e=E)
+    apart = largest_difference(there("hooke/hysteresis tangential history", folder, impact, more),
+                               here(hysteresis("pair", pull), folder, impact, hysteresis("wall", pull)))
+    at_most("at a wall", max(apart[1], apart[2]), 1e-12)
+    at_most("two grains", max(apart[3], apart[4]), 1e-12)
+
+
+def edinburgh(radius, n, e, surface):
+    """eepa for edinburgh, whose friction has the stiffness 2 E* sqrt(R d) with n = 1 and 8 G* sqrt(R d) with 1.5."""
+    k1 = 2 * MODULUS * radius if n == 1 else 4 / 3 * MODULUS * math.sqrt(radius)
+    return (f"eepa {k1!r} {e} {1 - 1 / STIFFER} {surface} {n} {n} 0 damping coeff_restitution "
+            f"tangential mindlin_liggghts {2 * MODULUS if n == 1 else 8 * SHEAR!r} 1 {{mu}}")
+
+
+@pytest.mark.parametrize("n, e, limit", [(1, E, "off"), (1, 1, "on"), (1.5, 1, "on")])
+def test_edinburgh(folder, n, e, limit):
+    small = 1 / (1 / RADIUS + 1 / SMALL)
+    for surface, impact in ((0, OBLIQUE), (20, {**OBLIQUE, "mu": 0})):
+        more = YIELDING.format(pull=0, n=n, surface=surface, e=e)
+        # It has no adhesion at walls: there the circle in which the surfaces cut is that of a second sphere of radius 0.
+        apart = largest_difference(there("edinburgh tangential history", folder, impact, more, f" limitForce {limit}"),
+                                   here(edinburgh(small, n, e, surface), folder, impact, edinburgh(RADIUS, n, e, 0)))
+        at_most(f"at a wall, surface energy {surface}", max(apart[1], apart[2]), 1e-12)
+        at_most(f"two grains that part, surface energy {surface}", max(apart[3], apart[4]), 1e-12)

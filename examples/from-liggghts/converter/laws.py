@@ -72,6 +72,9 @@ class Contact:
 ROLLING = {"cdt": ["coefficientRollingFriction"], "epsd2": ["coefficientRollingFriction"],
            "epsd": ["coefficientRollingFriction", "coefficientRollingViscousDamping"],
            "epsd3": ["coefficientRollingFriction", "coefficientRollingViscousDamping", "rollingStiffness"]}
+# Normal models of contacts that yield, each with what is the same here, and what is not (LIGGGHTS 3.8).
+YIELDING = ("hooke/hysteresis", "edinburgh")
+BRIDGES = ("easo/capillary/viscous", "washino/capillary/viscous")
 
 
 class Model:
@@ -79,8 +82,8 @@ class Model:
     off, as in contact_models.cpp of LIGGGHTS 3.8; LIGGGHTS-PFM has no_history."""
     ORDER = {"model": "normal", "tangential": "tangential", "cohesion": "cohesion", "rolling_friction": "rolling",
              "surface": "surface"}
-    # Settings that are off without their word, but for tangential_damping. Those that are not handled may be off.
-    HANDLED = ("tangential_damping", "limitForce", "ktToKnUser", "absolute_damping")
+    # Settings that are off without their word, but for tangential_damping, and limitForce of edinburgh and luding. Those that are not handled may be off.
+    HANDLED = ("tangential_damping", "limitForce", "ktToKnUser", "absolute_damping", "fixKc")
     OTHERS = ("viscous", "computeElasticPotential", "computeDissipatedEnergy", "disableNormalWhenBonded",
               "disableTangentialWhenBonded", "heating_normal_hooke", "heating_normal_hertz", "heating_tangential_history",
               "heating_tracking", "tangential_reduce", "torsionTorque", "torsion")
@@ -95,6 +98,8 @@ class Model:
                 value = self.rest[1]
                 setattr(self, name, None if value == "off" else value)
                 del self.rest[:2]
+        if self.normal in ("edinburgh", "luding"):
+            self.on.add("limitForce")
 
     def settings(self, words, of):
         """The words at the end."""
@@ -114,14 +119,32 @@ class Model:
         return "limitForce" in self.on
 
     @property
+    def yields(self):
+        return self.normal in YIELDING
+
+    @property
+    def is_granular(self):
+        """Whether its law is one of granular, with the friction of LIGGGHTS."""
+        return self.normal == "hertz" or self.yields
+
+    @property
+    def has_one_size(self):
+        """Whether its stiffness is that of one radius and mass."""
+        return self.normal == "hooke" or self.yields
+
+    @property
     def damped(self):
         return "tangential_damping" in self.on
 
     def check(self):
         if self.surface != "default":
             raise Left(f"surface {self.surface}", "spheres only")
-        if self.normal not in ("hooke", "hertz", "hooke/stiffness", "hertz/stiffness"):
-            raise Left(f"model {self.normal or 'off'}", "hooke or hertz; others are not there")
+        if self.normal == "luding":
+            raise Left("model luding, which keeps its slope along the adhesive branch, so that its force jumps where it turns",
+                       "granular lepa k1 eta kp kc phi, whose slope follows: k1 is LoadingStiffness, kp and kc its parts, phi coefficientPlasticityDepth "
+                       "at a mesh and half of it between grains")
+        if self.normal not in ("hooke", "hertz", "hooke/stiffness", "hertz/stiffness", *YIELDING):
+            raise Left(f"model {self.normal or 'off'}", "hooke or hertz, hooke/hysteresis or edinburgh; others are not there")
         if self.tangential not in ("history", "no_history", None):
             raise Left(f"tangential {self.tangential}", "history or no_history")
         if "absolute_damping" in self.on:
@@ -147,6 +170,9 @@ class Model:
                 c.check_units(f"{viscous} is not the part of the critical dashpot")
             words += f" rolling {self.rolling} " + " ".join(short(c.get(name, c.i, c.j)) for name in ROLLING[self.rolling])
         if self.cohesion:
+            if self.cohesion in BRIDGES:
+                raise Left(f"cohesion {self.cohesion}, whose bridge has another formula, a viscous force and liquid that flows, and at a mesh a second "
+                           "grain in place of the plane", "cohesion capillary gamma theta NULL V, a bridge of constant volume")
             if self.cohesion != "sjkr":
                 raise Left(f"cohesion {self.cohesion}", "sjkr, or granular jkr or dmt")
             words += f" cohesion sjkr {short(c.get('cohesionEnergyDensity', c.i, c.j))}"
@@ -207,9 +233,72 @@ class Model:
         share = math.sqrt(4 * g / y) if self.damped and self.tangential else 0.0
         return 4 / 3 * y, 8 * g, math.sqrt(5) * c.beta(), share, self.friction(c)
 
-    def law(self, c, r, m):
-        """Words of a law of LSDCD, which begin with a classic style, or with granular."""
+    def has_limit(self, c):
+        """Whether friction or rolling ends at a part of the normal force."""
+        return self.friction(c) > 0 or self.rolling in ("epsd", "epsd2", "epsd3")
+
+    def hysteresis(self, c, r, m, pair):
+        """The normal sub-model for hooke/hysteresis, and the stiffness of its friction."""
+        kn, damping = c.hooke(r, m)
+        steepest, pull, depth = (c.get(f"coefficient{name}", c.i, c.j) for name in ("MaxElasticStiffness", "AdhesionStiffness", "PlasticityDepth"))
+        # With the reduced radius of two grains the depth counts twice here.
+        words = f"lepa {short(kn)} {short(damping * m)} {short(kn * steepest)} {short(kn * pull)} {short(depth / 2 if pair else depth)}"
+        if pull > 0 and self.has_limit(c):
+            raise Left("model hooke/hysteresis with a coefficientAdhesionStiffness above 0 and friction, whose limit is mu times the force there, and "
+                       "here times the force and the pull of the adhesive branch", f"granular {words} where that is meant")
+        return words, short(kn)
+
+    def edinburgh(self, c, r, pair):
+        """The normal sub-model for edinburgh without adhesion, which has none at meshes, and the stiffness of its friction."""
+        y, g = c.elastic()
+        n, e = c.get("overlapExponent"), c.get("coefficientRestitution", c.i, c.j)
+        pull_off, surface = c.get("pullOffForce", c.i, c.j), c.get("surfaceEnergy", c.i, c.j)
+        lam = 1 - 1 / c.get("UnloadingStiffness", c.i, c.j)
+        k1 = 2 * y * r if n == 1 else 4 / 3 * y * math.sqrt(r)
+        surface = surface if pair else 0.0
+        chi = c.get("adhesionExponent") if surface else n
+        words = f"eepa {short(k1)} {short(e)} {short(lam)} {short(surface)} {short(n)} {short(chi)} {short(pull_off)}"
+        why = ""
+        if "fixKc" in self.on:
+            why = "fixKc, by which the adhesive slope is a part of the stiffness"
+        elif n not in (1, 1.5):
+            why = f"an overlapExponent of {short(n)}, which is 1 or 1.5 here"
+        elif surface > 0:
+            why = "surfaceEnergy between grains: where a contact reloads from the adhesive branch it computes the slope of that anew, which stays here"
+        elif e < 1 and n == 1.5:
+            why = "a coefficientRestitution below 1 and overlapExponent 1.5, where its dashpot has the units of a linear spring"
+        elif e < 1 and pull_off == 0 and self.limit:
+            why = "limitForce, which is on without the word: with a coefficientRestitution below 1 it cuts the pull of the dashpot, which eepa keeps"
+        elif pull_off != 0 and self.has_limit(c):
+            why = "pullOffForce and friction, whose limit is mu times the force there, and here times the force less the pull-off force"
+        elif self.rolling not in (None, "epsd2") and n == 1.5:
+            why = "rolling friction and overlapExponent 1.5, where that takes the stiffness of a power of the overlap for one of the overlap"
+        if why:
+            raise Left(f"model edinburgh with {why}", f"granular {words} where that is meant")
+        return words, short(2 * y if n == 1 else 8 * g)
+
+    def yielding(self, c, r, m, pair):
+        """Words of a law whose contacts yield."""
+        if self.cohesion:
+            raise Left(f"cohesion {self.cohesion} beside model {self.normal}", "one of both")
+        if self.normal == "hooke/hysteresis":
+            normal, kt = self.hysteresis(c, r, m, pair)
+            damping, spring = "velocity", "linear_history_liggghts"
+        else:
+            normal, kt = self.edinburgh(c, r, pair)
+            damping, spring = "coeff_restitution", "mindlin_liggghts"
+        share = "1" if self.damped and self.tangential else "0"
+        if self.tangential == "history":
+            tangential = f"{spring} {kt} {share}"
+        else:
+            tangential = f"linear_nohistory_liggghts {share}" if self.tangential else "linear_nohistory 0"
+        return f"granular {normal} damping {damping} tangential {tangential} {short(self.friction(c))}" + self.extras(c)
+
+    def law(self, c, r, m, pair=False):
+        """Words of a law of LSDCD, which begin with a classic style, or with granular. `r`, `m`: effective radius and mass."""
         self.check()
+        if self.yields:
+            return self.yielding(c, r, m, pair)
         if self.normal != "hertz":
             style, numbers = self.classic(c, r, m)
             return f"{style} {numbers}" + " limit_damping" * self.limit + self.extras(c)

@@ -110,16 +110,19 @@ class Properties:
                 self.data_sizes[line].append((float(w[2]) / 2, float(w[3])))
         self.sizes += self.data_sizes[line]
 
-    def size(self, line):
-        """Radius and mass of a grain."""
+    def size(self, line, model):
+        """Radius and mass of the grains, for a model whose stiffness depends on them; 1, 1 for another one."""
+        if not model.has_one_size:
+            return 1.0, 1.0
+        what = f"model {model.normal}"
         if not self.sizes and self.missing_data:
-            raise Left(f"model hooke needs the size of a grain, and {self.missing_data[0]} is not beside the script",
+            raise Left(f"{what} needs the size of a grain, and {self.missing_data[0]} is not beside the script",
                        "convert the script in the folder of that file, or give --radius and --density")
         if not self.sizes:
-            raise Left("model hooke needs the size of a grain, which this script does not tell", "give --radius and --density")
+            raise Left(f"{what} needs the size of a grain, which this script does not tell", "give --radius and --density")
         masses = [4 / 3 * math.pi * s[0] ** 3 * s[1] if s else math.inf for s in self.sizes]
         if max(masses) > 1.001 * min(masses) or math.inf in masses:
-            raise Left("model hooke has a stiffness for each mass, and the grains differ",
+            raise Left(f"{what} has a stiffness for each mass, and the grains differ",
                        "model hertz; or --radius and --density, the grain whose stiffness all shall have")
         return self.sizes[0][0], masses[0]
 
@@ -139,16 +142,15 @@ class Properties:
         model.check()
         contacts = [Contact(self, line, i, j) for i in kinds for j in kinds]
         model.drop_zeros(contacts)
-        self.note_friction(line, model, contacts, model.normal == "hertz")
+        self.note_friction(line, model, contacts, model.is_granular)
         self.pair = None
         pairs = [("*", "*", kinds[0], kinds[0])] + [(a, b, a, b) for a in kinds for b in kinds if a <= b and b != kinds[0]]
-        if model.extra or model.normal == "hertz":    # LAMMPS's granular slips at other arms, and stops at mu F with the dashpot
-            r, m = self.size(line) if model.normal == "hooke" else (1.0, 1.0)
-            laws = [(i, j, model.law(Contact(self, line, a, b), r / 2, m / 2)) for i, j, a, b in pairs]
+        r, m = self.size(line, model)
+        if model.extra or model.is_granular:    # LAMMPS's granular slips at other arms, and stops at mu F with the dashpot
+            laws = [(i, j, model.law(Contact(self, line, a, b), r / 2, m / 2, pair=True)) for i, j, a, b in pairs]
             self.put("pair_style      granular/lsdcd")
             self.pair = [f"pair_coeff      {i} {j} law {law}" for i, j, law in laws]
             return
-        r, m = self.size(line) if model.normal == "hooke" else (1.0, 1.0)
         laws = {model.classic(Contact(self, line, i, j), r / 2, m / 2) for i in kinds for j in kinds}
         if len(laws) > 1:
             raise Left("model hooke for grains of several materials", "pair_style hybrid, or model hertz")

@@ -60,7 +60,7 @@ class Walls:
 
     def law_of(self, line, model, wall_type):
         """Words of the wall for each grain type."""
-        r, m = self.size(line) if model.normal == "hooke" else (1.0, 1.0)
+        r, m = self.size(line, model)
         return {i: model.law(Contact(self, line, wall_type, i), r, m) for i in self.grains()}
 
     def mesh_wall(self, line, wall):
@@ -77,7 +77,7 @@ class Walls:
         model.check()
         contacts = [Contact(self, line, mesh.type, i) for mesh in meshes for i in self.grains()]
         model.drop_zeros(contacts)
-        self.note_friction(line, model, contacts, model.normal == "hertz")
+        self.note_friction(line, model, contacts, model.is_granular)
         self.note_stored(line, wall)
         self.note_rolling(line, model, meshes)
         self.check_bodies(line, model, meshes)
@@ -206,6 +206,8 @@ class Walls:
         w, model, grains = line.words, wall.model, self.grains()
         kind, shape, place, shear = wall.type, wall.shape, wall.place, wall.shear
         model.check()
+        if model.yields:
+            raise Left(f"model {model.normal} of a plane or cylinder, which LAMMPS's own wall does not have", "a mesh of it: lsdcd generate plane or cylinder")
         self.note_stored(line, wall)
         contacts = [Contact(self, line, kind, i) for i in grains]
         model.drop_zeros(contacts)
