@@ -200,9 +200,14 @@ std::string motion_of(const MeshSpec &mesh, const InputNames &inputs)
 
 std::string text_of(const Wear &wear, const WearDeform &deform)
 {
-  const auto &[model, per_work] = wear;
+  const auto &[model, per_work, oka] = wear;
+  const auto &[hardness, n1, n2, k2, k3, speed, diameter, least_speed] = oka;
   const auto &[every, factor] = deform;
-  return word_of(model, kWearWords) + (" " + text_of(per_work)) +
+  std::string numbers = " " + text_of(per_work);
+  if (model == WearModel::oka)
+    for (const Real number : {hardness, n1, n2, k2, k3, speed, diameter, least_speed})
+      numbers += " " + text_of(number);
+  return word_of(model, kWearWords) + numbers +
          (every > 0
               ? ", every " + std::to_string(every) + " steps moves vertices " + text_of(factor)
               : "");

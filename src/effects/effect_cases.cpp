@@ -87,6 +87,11 @@ std::vector<EffectCase> effect_cases()
       [](EngineSettings &s) { s.wear = WearModel::archard; });
   add("wear finnie", "wear finnie", "loads of triangles",
       [](EngineSettings &s) { s.wear = WearModel::finnie; });
+  add("wear oka", "wear oka", "loads of triangles", [](EngineSettings &s) {
+    s.law().keeps_touch = true;
+    s.wear = WearModel::oka;
+    s.oka = {1.2, 0.73, 2, 2.3, 0.19, 1, 1, 0.01};
+  });
 
   add("energy balance", "energy, compute lsdcd/energy", "tangential spring",
       [](EngineSettings &s) { s.law().keeps_forces = true; });

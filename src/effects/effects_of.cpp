@@ -69,6 +69,7 @@ std::vector<Effect> effects_of(const EngineSettings &s)
   if (s.impact_speed > 0) effects.push_back({"impacts", 0});
   if (s.wear == WearModel::archard) effects.push_back({"wear archard", 0});
   if (s.wear == WearModel::finnie) effects.push_back({"wear finnie", 0});
+  if (s.wears_by_impact()) effects.push_back({"wear oka", 0});
   return effects;
 }
 

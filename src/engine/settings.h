@@ -37,6 +37,7 @@ struct EngineSettings {
   bool bodies = false;      // StepSettings::mobility will be used; contacts are kept, too
   bool nodes = false;       // WallEngine::nodes() will be used; contacts are kept, too
   WearModel wear = WearModel::none;    // read if contacts are kept
+  OkaWear oka;                         // read if `wear` is oka
   bool energy_places = false;          // EnergyRecord::dissipated is wanted, if laws record energy
   Real friction_heat =
       0;    // if laws record energy and have heat: the share of the slider's losses that heats the sphere
@@ -48,7 +49,12 @@ struct EngineSettings {
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
   HostNames names;        // for errors
 
-  bool records_energy() const { return energy_places || impact_speed > 0 || law().keeps_losses; }
+  bool wears_by_impact() const { return wear == WearModel::oka; }
+  // Returns whether a step looks at contacts that begin, or writes what contacts dissipate.
+  bool records_energy() const
+  {
+    return energy_places || impact_speed > 0 || law().keeps_losses || wears_by_impact();
+  }
   // Returns the first law of the table. It is the only one, or has the sub-models of all.
   ContactLaw &law() { return laws.laws.front(); }
   const ContactLaw &law() const { return laws.laws.front(); }

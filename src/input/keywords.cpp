@@ -124,8 +124,20 @@ void read_wear(Tokens &w, WallCommand &s)
 {
   s.wall.wear.model =
       static_cast<WearModel>(1 + w.choice({std::begin(kWearWords) + 1, std::end(kWearWords)}));
-  s.wall.wear.per_work = w.number("K", 0);
-  if (s.wall.wear.model == WearModel::archard) s.wall.wear.per_work /= w.number("H", kAboveZero);
+  if (s.wall.wears_by_impact()) {
+    OkaWear &oka = s.wall.wear.oka;
+    s.wall.wear.per_work = w.number("E90", 0);
+    oka.hardness = w.number("Hv", kAboveZero);
+    for (const auto &[name, exponent] : {std::pair{"n1", &oka.n1}, std::pair{"n2", &oka.n2},
+                                         std::pair{"k2", &oka.k2}, std::pair{"k3", &oka.k3}})
+      *exponent = w.number(name, 0);
+    oka.speed = w.number("v", kAboveZero);
+    oka.diameter = w.number("D", kAboveZero);
+    oka.least_speed = w.number("least", kAboveZero);
+  } else {
+    s.wall.wear.per_work = w.number("K", 0);
+    if (s.wall.wear.model == WearModel::archard) s.wall.wear.per_work /= w.number("H", kAboveZero);
+  }
   if (w.done() || w.peek() != "deform") return;
   w.take();
   if (w.done() || w.take() != "every") w.fail("'every N' is missing");
@@ -298,11 +310,14 @@ const Keyword kKeywords[] = {
     {"rolling", kRolling.syntax.c_str(), "", ">= 0", "none", kRolling.help.c_str(), read_rolling},
     {"cohesion", kCohesion.syntax.c_str(), "energy/volume", ">= 0", "none", kCohesion.help.c_str(),
      read_cohesion},
-    {"wear", "archard K H | finnie K [deform every N [factor F]]",
-     "K H: none, pressure; K: 1/pressure", ">= 0, H > 0, N >= 1, F > 0", "none",
-     "volume that wears off the triangles: K F s/H, or by angle and energy of impacts; deform: "
-     "every "
-     "N steps F (1) times that is removed from the mesh",
+    {"wear",
+     "archard K H | finnie K | oka E90 Hv n1 n2 k2 k3 v D least [deform every N [factor F]]",
+     "K H: none, pressure; K: 1/pressure; E90: length^3/mass, Hv: GPa, v and least: velocity, "
+     "D: length",
+     ">= 0, H, Hv, v, D and least > 0, N >= 1, F > 0", "none",
+     "volume that wears off the triangles: K F s/H, or by angle and energy of impacts, or by "
+     "angle, speed and diameter of impacts faster than least; deform: every N steps F (1) times "
+     "that is removed from the mesh",
      read_wear},
     {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",
      "stress, contacts, wear, energy and impacts of every triangle every N steps, for ParaView; * "

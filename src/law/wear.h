@@ -10,12 +10,35 @@
 
 namespace lsdcd {
 
-enum class WearModel { none, archard, finnie };
+enum class WearModel { none, archard, finnie, oka };
+
+// The numbers of oka, which is a law of one impact: the volume E90 g(a) (v/v')^k2 (D/D')^k3 comes off for each mass of grains that
+// strike at the speed v under the angle a, of the diameter D (Oka, Okamura and Yoshida 2005).
+struct OkaWear {
+  Real hardness =
+      0;    // of the wall (Vickers), GPa in all units, as n1 and n2 are fitted for these
+  Real n1 = 0, n2 = 0;             // g(a) = (sin a)^n1 (1 + hardness (1 - sin a))^n2
+  Real k2 = 0, k3 = 0;             // exponents of speed and diameter
+  Real speed = 1, diameter = 1;    // v' and D', at which E90 was measured (length/time, length)
+  Real least_speed =
+      0;    // impacts that are not faster along the normal wear nothing (length/time)
+};
 
 struct Wear {
   WearModel model = WearModel::none;
-  Real per_work = 0;    // volume per work: K/H (archard), K (finnie); 1/pressure
+  Real per_work =
+      0;    // volume per work: K/H (archard), K (finnie); 1/pressure. Of oka E90: volume per mass
+  OkaWear oka = {};
 };
+
+// Returns what oka wears off over E90 and the mass of the sphere, which strikes with these speeds of its centre towards the wall (above 0)
+// and along it.
+LSDCD_FN Real oka_share(const OkaWear &oka, Real towards, Real along, Real diameter)
+{
+  const Real v = sqrt(towards * towards + along * along), sine = towards / v;
+  return pow(sine, oka.n1) * pow(1 + oka.hardness * (1 - sine), oka.n2) *
+         pow(v / oka.speed, oka.k2) * pow(diameter / oka.diameter, oka.k3);
+}
 
 // Returns the wearing power of finnie, to be multiplied by Wear::per_work: f(a) F_n v with the impact angle a, tan a =
 // -v_normal/v_along, and f(a) = sin 2a - 3 sin^2 a up to tan a = 1/3, cos^2 a/3 above (Finnie 1960); nothing while the sphere

@@ -35,6 +35,7 @@ EngineSettings EngineInput::settings(Device device, bool virial, bool pushed) co
   want.contacts = of_all_steps_.contacts || wall_.has_loads() || virial;
   want.bodies = pushed;
   want.wear = wall_.wear.model;
+  want.oka = wall_.wear.oka;
   want.energy_places = wall_.has_energy_places();
   want.impact_speed = wall_.impact_speed;
   want.velocity_unit = velocity_unit_;

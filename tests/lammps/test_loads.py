@@ -3,8 +3,11 @@
 
 """Stress and wear of the triangles: files, totals, ranks and restart."""
 
+import math
+
 import lmp
 import scene
+import stl
 import vtp
 from facts import at_most, fact
 
@@ -69,3 +72,39 @@ def test_loads(folder):
     text = lmp.run_well(scene.SETTINGS + "read_restart half.restart\n" + forces("c_*.vtp") +
                         "run 10\n", folder)
     fact("also of one with as many triangles", "begin at zero" in text)
+
+
+# Diameter, place and velocity; the third is slower than the threshold.
+GRAINS = [(1.0, (-2.2, -1.7, 0.6), (1.1, 0.3, -1.4)), (0.6, (1.3, 0.8, 0.5), (0, 0, -2.0)), (0.8, (2.1, -2.4, 0.42), (0.5, 0, -0.2)),
+          (0.8, (-1.6, 2.3, 0.7), (-0.4, 1.6, -0.9))]
+E90, HARDNESS, N1, N2, K2, K3, SPEED, DIAMETER, LEAST = 3e-4, 1.2, 0.73, 2.0, 2.3, 0.19, 5.0, 0.3, 0.5
+MESH_MOVES = (0.2, -0.1, 0.05)
+
+
+def worn_by(diameter, velocity):
+    """The formula of Oka, Okamura and Yoshida (2005), of grains of the density 2 against the mesh that moves."""
+    vx, vy, vz = (v - w for v, w in zip(velocity, MESH_MOVES))
+    v = math.sqrt(vx**2 + vy**2 + vz**2)
+    sine = -vz / v
+    mass = 2.0 * math.pi / 6 * diameter**3
+    return E90 * mass * sine**N1 * (1 + HARDNESS * (1 - sine))**N2 * (v / SPEED)**K2 * (diameter / DIAMETER)**K3 * (-vz > LEAST)
+
+
+def test_oka(folder):
+    stl.write(folder / "floor.stl", stl.sheet(26, lambda i, j: (i / 2 - 6.5, j / 2 - 6.5, 0)))
+    place = "".join(f"create_atoms 1 single {x} {y} {z} units box\n" for _, (x, y, z), _ in GRAINS)
+    move = "".join(f"set atom {k} diameter {d} density 2.0\ngroup g{k} id {k}\nvelocity g{k} set {vx} {vy} {vz} units box\n"
+                   for k, (d, _, (vx, vy, vz)) in enumerate(GRAINS, 1))
+    begin = lmp.head(modify="map array") + f"region box {scene.BOX}\ncreate_box 1 box\n" + place + move
+    wall = ("fix wall all wall/lsdcd hooke/history 1e5 NULL 0 NULL 0.3 1 mesh floor.stl motion linear " + " ".join(map(str, MESH_MOVES)) +
+            f" wear oka {E90} {HARDNESS} {N1} {N2} {K2} {K3} {SPEED} {DIAMETER} {LEAST}")
+    run = lmp.pairs("zero 1.2") + "fix move all nve/sphere\ntimestep 1e-3\n" + wall + "\nthermo_style custom step f_wall[10]\n" \
+        "thermo_modify norm no format float %.17g\nthermo 10\nrun {}\n"
+    exact = sum(worn_by(d, v) for d, _, v in GRAINS)
+    for ranks in (1, 2):
+        worn = lmp.read_thermo(lmp.run_well(begin + run.format(500), folder, ranks))
+        at_most(f"worn by three impacts of four, on {ranks}", abs(worn[-1][1] / exact - 1), 1e-12)
+    lmp.run_well(begin + run.format(150) + "write_restart half.restart\n", folder)
+    worn = lmp.read_thermo(lmp.run_well(lmp.head(modify="map array") + "read_restart half.restart\n" + run.format(350), folder))
+    fact("some had struck before the restart", 0 < worn[0][1] < worn[-1][1])
+    at_most("continued", abs(worn[-1][1] / exact - 1), 1e-12)

@@ -194,6 +194,7 @@ BASES = {
     "pressed_by_input": on("floor", "nodes caller pressure v_p|v_other|1"),
     "wears": on("box", "wear archard 1e-6|2e-6 1e5|2e5"), "wears_faster": on("box", "wear archard 1e-6 1e5 wear_factor 2|3|0|=2.0"),
     "wears_by_angle": on("box", "wear finnie 1e-6|2e-6"),
+    "wears_by_impact": on("box", "wear oka 1e-6|2e-6 1.2|2 0.7|1 2|1 2.3|2 0.2|0 10|20 1e-3|2e-3 0.01|0.02"),
     "recedes": on("box", "wear archard 1e-6|2e-6 1e5|2e5 deform every 3|4 factor 2|1"),
     # What is told, and how it is found.
     "fields": on("floor", f"mesh_fields {FOLDER}/a.*.vtp|={FOLDER}/b.*.vtp every 50|60 mesh_stl {FOLDER}/a.*.stl|={FOLDER}/b.*.stl every 50|=60"),

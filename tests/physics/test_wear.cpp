@@ -200,6 +200,97 @@ TEST(wear, of_finnie_is_none_where_a_sphere_slides)
   EXPECT_EQ(drive(scene, {-1, 0.1, kRadius - kOverlap}, {1, 0, 0}, 1e-3, 100, 1).total().worn, 0);
 }
 
+// SiO2 on a steel of 1.18 GPa (Oka et al. 2005): n1 0.71 Hv^0.14, n2 2.4 Hv^-0.94, k2 2.3 Hv^0.038, k3 0.19.
+constexpr Real kHardness = 1.18, kN1 = 0.727, kN2 = 2.054, kK2 = 2.315, kK3 = 0.19;
+
+EngineSettings worn_by_impacts(EngineSettings s, Real least_speed)
+{
+  s = worn(s, WearModel::oka);
+  s.law().keeps_touch = true;
+  s.oka = {kHardness, kN1, kN2, kK2, kK3, 104, 3.26e-4, least_speed};
+  return s;
+}
+
+// The formula of the paper, of a sphere that strikes at this speed under this angle (rad), for an E90 of 1.
+Real oka_volume(Real speed, Real angle)
+{
+  const Real sine = std::sin(angle);
+  return kMass * std::pow(sine, kN1) * std::pow(1 + kHardness * (1 - sine), kN2) *
+         std::pow(speed / 104, kK2) * std::pow(2 * kRadius / 3.26e-4, kK3);
+}
+
+// One impact at constant velocity, whose contact then crosses seams: the formula once, on the triangle that it has touched first, also
+// beside books and recorded impacts.
+TEST(wear, of_oka_is_the_formula_of_the_impact_on_its_first_triangle)
+{
+  const Real dt = 1e-4, speed = 1.3;
+  for (const Real degrees : {5.0, 20.0, 45.0, 90.0})
+    for (const int beside : {0, 1, 2, 3}) {    // 1: energy, 2: impacts
+      EngineSettings law = worn_by_impacts(hooke(kStiffness), 0.05);
+      law.law().keeps_forces = beside & 1;
+      law.impact_speed = beside & 2 ? 1e3 : 0;    // none is so fast
+      Scene scene(floor_mesh(16, 2, 5), kRadius, law);
+      const Real a = degrees * kPi / 180;
+      const Vec3 v = {speed * std::cos(a), 0, -speed * std::sin(a)};
+      const Vec3 from = Vec3{-0.9, 0.1, kRadius} - (20.5 * dt) * v;
+      const FeatureRows<Load> loads = drive(scene, from, v, dt, 2000, 1);
+      EXPECT_NEAR(loads.total().worn, oka_volume(speed, a), 1e-13 * oka_volume(speed, a))
+          << degrees << " " << beside;
+      int worn_faces = 0;
+      for (const Load &face : loads.of_faces(scene.mesh)) worn_faces += face.worn > 0;
+      EXPECT_EQ(worn_faces, 1) << degrees;
+    }
+}
+
+// On a belt, speed and angle are those against its surface.
+TEST(wear, of_oka_sees_the_motion_of_the_surface)
+{
+  EngineSettings law = worn_by_impacts(hooke(kStiffness), 0.05);
+  law.surface.velocity = {2, 0, 0};
+  Scene scene(floor_mesh(4, 2), kRadius, law);
+  const Vec3 v = {0.5, 0, -1.5};
+  const Real worn =
+      drive(scene, Vec3{-0.4, 0.1, kRadius} - 1.5e-3 * v, v, 1e-3, 20, 1).total().worn;
+  const Real exact = oka_volume(1.5 * std::sqrt(Real(2)), kPi / 4);
+  EXPECT_NEAR(worn, exact, 1e-13 * exact);
+}
+
+// What slides, what was put into contact, and what is slower than the threshold.
+TEST(wear, of_oka_is_none_without_an_impact)
+{
+  const EngineSettings law = worn_by_impacts(hooke_history(kStiffness, 3e4, 0, 1, 0.3), 0.05);
+  struct Case {
+    const char *name;
+    Vec3 from, v;
+  };
+  for (const Case &c : {Case{"slides", {-1, 0.1, kRadius - kOverlap}, {1, 0, 0}},
+                        Case{"was put there", {-1, 0.1, kRadius - kOverlap}, {1, 0, -0.1}},
+                        Case{"is slow", {-1, 0.1, kRadius + 1e-4}, {1, 0, -0.04}}}) {
+    Scene scene(floor_mesh(16, 2, 5), kRadius, law);
+    const FeatureRows<Load> loads = drive(scene, c.from, c.v, 1e-3, 1500, 1);
+    EXPECT_EQ(loads.total().worn, 0) << c.name;
+    EXPECT_GT(loads.total().normal, 0) << c.name;
+  }
+}
+
+// A sphere that rolls along a floor and strikes a wall wears the wall, and one that falls into their fold wears each of both once.
+TEST(wear, of_oka_is_once_for_each_side_of_a_fold)
+{
+  TriangleSoup soup = box_mesh({-4, -4, -1}, {4, 4, 0});
+  append(soup, box_mesh({2, -4, 0}, {3, 4, 4}));
+  const Real dt = 1e-4, at_wall = 2 - kRadius;
+  const auto worn = [&](const Vec3 &from, const Vec3 &v) {
+    Scene scene(soup, kRadius, worn_by_impacts(hooke(kStiffness), 0.05));
+    return drive(scene, from, v, dt, 100, 1).total().worn;
+  };
+  const Vec3 rolls = {1.2, 0, 0}, falls = {0.9, 0, -0.9};
+  const Real struck = worn({at_wall - 30.5 * dt * 1.2, 0.3, kRadius - 1e-3}, rolls);
+  EXPECT_NEAR(struck, oka_volume(1.2, kPi / 2), 1e-12 * struck);
+  const Real both = worn(Vec3{at_wall, 0.3, kRadius} - (30.5 * dt) * falls, falls);
+  const Real one = oka_volume(norm(falls), kPi / 4);
+  EXPECT_NEAR(both, 2 * one, 1e-9 * one);
+}
+
 // Weight on the floor, and on both sides of an edge.
 TEST(stress, of_a_resting_sphere_is_its_weight)
 {

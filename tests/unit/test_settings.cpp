@@ -474,6 +474,13 @@ TEST(settings, wear_is_volume_per_work)
   EXPECT_TRUE(has(error_with("wear archard 0.003 0"), "H"));
   EXPECT_TRUE(has(error_with("wear archard -1 5"), "K"));
   EXPECT_TRUE(has(error_with("wear rubbing 1"), "archard"));
+  const Wear oka = with("wear oka 6e-11 1.18 0.727 2.05 2.31 0.19 104 3.26e-4 0.5").wear;
+  EXPECT_EQ(oka.model, WearModel::oka);
+  EXPECT_EQ(oka.per_work, 6e-11);
+  EXPECT_EQ((std::array<Real, 8>{oka.oka.hardness, oka.oka.n1, oka.oka.n2, oka.oka.k2, oka.oka.k3,
+                                 oka.oka.speed, oka.oka.diameter, oka.oka.least_speed}),
+            (std::array<Real, 8>{1.18, 0.727, 2.05, 2.31, 0.19, 104, 3.26e-4, 0.5}));
+  EXPECT_TRUE(has(error_with("wear oka 6e-11 1.18 0.727 2.05 2.31 0.19 104 3.26e-4"), "least"));
   EXPECT_TRUE(has(error_with("wear finnie nan"), "K"));
 }
 

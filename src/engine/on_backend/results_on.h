@@ -89,8 +89,17 @@ class ResultsOn : public StepResults {
       n_ended_.reserve(1);
       put_one(*b_, n_ended_.data(), 0);
     }
-    return {records_.data(),        n_records_.data(),   settings.impact_speed,
-            settings.velocity_unit, ended_there_.data(), n_ended_.data()};
+    if (settings.wears_by_impact()) {
+      oka_.reserve(1);
+      put_one(*b_, oka_.data(), settings.oka);
+    }
+    return {records_.data(),
+            n_records_.data(),
+            settings.impact_speed,
+            settings.velocity_unit,
+            ended_there_.data(),
+            n_ended_.data(),
+            oka_.data()};
   }
   EnergyRecords energy_records() const override
   {
@@ -209,7 +218,7 @@ class ResultsOn : public StepResults {
            records_.size() * sizeof(EnergyRecord) + ended_there_.size() * sizeof(EndedContact) +
            (numbers_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
            (n_contacts_.size() + first_contact_.size() + stored_candidates_.size()) * sizeof(int) +
-           touching_.capacity() * sizeof(TouchingSphere) +
+           oka_.size() * sizeof(OkaWear) + touching_.capacity() * sizeof(TouchingSphere) +
            contacts_.capacity() * sizeof(StepContact) + losses_.capacity() * sizeof(KeptLosses) +
            ended_.capacity() * sizeof(EndedContact) +
            (block_sums_.size() + group_sums_.size() + sums_on_cpu_.size()) * sizeof(UnitTotals) +
@@ -395,6 +404,7 @@ class ResultsOn : public StepResults {
   std::vector<EnergyRows> energy_of_mesh_;
   EnergySums<B> energy_sums_;
   Array<EnergyRecord> records_;
+  Array<OkaWear> oka_;    // one, if impacts wear
   Array<EndedContact> ended_there_;
   Array<int> n_records_, n_ended_;
   bool has_records_ = false;    // of the last step

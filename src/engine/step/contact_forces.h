@@ -81,6 +81,7 @@ struct EnergyRecordList {
   // Contacts that have ended, if laws keep losses.
   EndedContact *ended;
   int *n_ended;
+  const OkaWear *oka;    // what impacts wear off; null: nothing
 
   LSDCD_FN void put(const EnergyRecord &record) const
   {
@@ -132,7 +133,7 @@ struct ForceSettings {
   // taken at the same time; otherwise a sphere at rest on a turntable would seem to slip outward, and friction would pull it in.
   Real back;
   Vec3 wall_velocity, wall_angular;    // of the pose at that time, in the frame of the mesh
-  WearModel wear;                      // read only if contacts are kept
+  WearModel wear;                      // of all steps of a contact; read only if contacts are kept
   bool gives_way;                      // the mesh is a rigid body; read only if contacts are kept
   Mobility mobility;                   // of the body
   NodeField nodes;                     // if its nodes move; read only by laws for these
@@ -159,7 +160,7 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.back = s.update && !step.synchronous ? step.dt / 2 : 0;
   s.wall_velocity = pose.turn_to_mesh(pose.velocity - s.back * pose.acceleration);
   s.wall_angular = pose.turn_to_mesh(pose.angular - s.back * pose.spin_up);
-  s.wear = engine.wear;
+  s.wear = engine.wears_by_impact() ? WearModel::none : engine.wear;
   s.mobility = step.mobility ? step.mobility[mesh] : Mobility();
   s.gives_way = s.mobility.any();
   s.nodes = nodes;
@@ -257,16 +258,33 @@ LSDCD_FN TakenAway taken_by_last_contact(const Transfer &in, const Springs &spri
   return taken;
 }
 
-// Writes the energy and the speed of an impact to the record of a contact that begins. A sphere that was put into contact overlaps by more
-// than it can have moved in this step, and has no impact.
+// Returns whether a contact that begins does so by an impact of this speed, which is above `least`. A sphere that was put into contact
+// overlaps by more than it can have moved in this step, and has no impact.
+LSDCD_FN bool is_impact(const TakenAway &taken, const Strike &strike, Real speed, Real least,
+                        Real dt)
+{
+  constexpr Real kSteps = 1.5;    // speeds change on the way, and are those of half of the step
+  return speed > least && taken.overlap_left(strike) <= kSteps * dt * speed;
+}
+
+// Writes the energy and the speed of an impact to the record of a contact that begins.
 LSDCD_FN void add_impact(const TakenAway &taken, const Strike &strike, Real mass, Real dt,
                          const EnergyRecordList &records, EnergyRecord &record)
 {
-  constexpr Real kSteps = 1.5;    // speeds change on the way, and are those of half of the step
   const Real speed = taken.speed_left(strike);
-  if (!(speed > records.impact_speed && taken.overlap_left(strike) <= kSteps * dt * speed)) return;
+  if (!is_impact(taken, strike, speed, records.impact_speed, dt)) return;
   record.impact = 0.5 * mass * speed * speed / records.velocity_unit;
   record.speed = speed;
+}
+
+// Returns what oka wears off in an impact, over E90 and the duration of its step: the wearing power of a contact that begins. `along`: the
+// speed of the centre along the wall; `mass`: of the sphere.
+LSDCD_FN Real oka_power(const TakenAway &taken, const Strike &strike, Real along, Real mass,
+                        Real diameter, Real dt, const OkaWear &oka)
+{
+  const Real speed = taken.speed_left(strike);
+  if (!is_impact(taken, strike, speed, oka.least_speed, dt)) return 0;
+  return mass * oka_share(oka, speed, along, diameter) / dt;
 }
 
 // Returns the velocity of a sphere's centre less that of the wall at a point of this feature. Sets the shares of the feature's nodes, if
@@ -474,8 +492,8 @@ LSDCD_FN void book_contact(const GridView &grid, const Law &law, const ForceSett
 template <class Law>
 using RowsBefore = std::conditional_t<Law::kLosses, EnergyRows, Real>;
 
-// Writes the record of a contact: what it has lost since the rows of its mesh were `before`, and its impact if it begins in this step.
-// `is_only`: it is known that the sphere has no other contact. `place`: as in book_contact().
+// Writes the record of a contact that is stored: what it has lost since the rows of its mesh were `before`, and its impact and what that
+// wears off, if it begins in this step. `is_only`: it is known that the sphere has no other contact. `place`: as in book_contact().
 template <class Law, class Springs, class Set, class Sink>
 LSDCD_FN void record_contact([[maybe_unused]] const Law &law, const ForceSettings &settings,
                              const SphereStateWith<Springs> &s,
@@ -491,15 +509,23 @@ LSDCD_FN void record_contact([[maybe_unused]] const Law &law, const ForceSetting
   }
   // Impacts are of spheres alone: an error refuses them with other grains.
   if constexpr (!Set::kHasArms)
-    if (settings.update && sink.records.impact_speed > 0 &&
+    if (settings.update && (sink.records.impact_speed > 0 || sink.records.oka) &&
         !stays(s.springs, at.in, at.feature, at.mesh)) {
       const Contact &c = at.motion.c;
       // If there may be others, impacts follow when all contacts are known (impacts.h).
-      if (is_only)
-        add_impact(taken_by_last_contact(at.in, s.springs, at.motion.v, c.overlap),
-                   {c.normal, -at.motion.away, c.overlap}, c.mass, c.dt, sink.records, record);
-      else
+      if (is_only) {
+        const TakenAway taken = taken_by_last_contact(at.in, s.springs, at.motion.v, c.overlap);
+        const Strike strike = {c.normal, -at.motion.away, c.overlap};
+        if (sink.records.impact_speed > 0)
+          add_impact(taken, strike, c.mass, c.dt, sink.records, record);
+        if constexpr (Law::kKeepsContacts)
+          if (sink.records.oka)
+            sink.contacts[place].wear_power =
+                oka_power(taken, strike, norm(at.motion.along), s.mass, 2 * s.radius, c.dt,
+                          *sink.records.oka);
+      } else {
         *sink.may_have_impacts = true;
+      }
     }
   sink.records.put(record);
 }
@@ -571,10 +597,10 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     [[maybe_unused]] RowsBefore<Law> rows_before = {};
     if constexpr (Law::kLosses) rows_before = sink.book->rows;
     if constexpr (Law::kEnergy) book_contact(grid, law, settings, s, set, at, sink, place);
-    if constexpr (Law::kRecords)
-      record_contact(law, settings, s, at, rows_before, !weights, sink, place);
     const Vec3 tangential = weight * at.f.tangential;
     store_contact(law, settings, s, at, tangential, sink, place);
+    if constexpr (Law::kRecords)
+      record_contact(law, settings, s, at, rows_before, !weights, sink, place);
     out.n_contacts++;
     add_to_result(law, settings, at, tangential, sink, out);
   }

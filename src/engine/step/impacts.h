@@ -17,6 +17,8 @@ struct StruckContact {
   Strike strike;
   Strike before;    // the contact in the last step; only if it has moved since
   Real mass;        // as in Contact
+  Real along;       // speed of the centre along the wall; read only if impacts wear
+  int place;        // its number among the contacts of the sphere that are stored
   FeatureCode feature;
   std::uint32_t mesh;    // number in the wall
   bool bears;            // false: the corner rule hides it
@@ -57,6 +59,7 @@ template <class Law, class Sphere, class Contacts, class Visit>
 LSDCD_FN void for_each_struck(const StepJob &job, const Sphere &sphere, const Contacts &set,
                               const Real *weight, const Visit &visit)
 {
+  int stored = 0;
   for_each_touched_mesh(sphere, set, [&](auto slot, const Contacts &of_mesh, int from) {
     const auto mesh = sphere.mesh(slot);
     const ForceSettings &settings = mesh.settings;
@@ -73,12 +76,15 @@ LSDCD_FN void for_each_struck(const StepJob &job, const Sphere &sphere, const Co
       const auto strike_along = [&](const Vec3 &normal) -> Strike {
         return {settings.pose.turn_to_box(normal), -dot(v, normal), overlap};
       };
+      const bool bears = weight[from + at] > 0;
       StruckContact c = {strike_along(n),
                          {},
                          mass_at<Law>(settings, state.mass, closest, n),
+                         0,
+                         stored,
                          feature,
                          settings.mesh,
-                         weight[from + at] > 0,
+                         bears,
                          stays(state.springs, in, feature, settings.mesh),
                          false};
       if (!c.stays && may_have_moved(in)) {
@@ -86,16 +92,22 @@ LSDCD_FN void for_each_struck(const StepJob &job, const Sphere &sphere, const Co
         c.has_moved = is_left_by_all(sphere, set, dot(n, was) > kSameDirection, in.from);
         c.before = strike_along(was);
       }
+      if (job.records.oka) {
+        Vec3 along = v - dot(v, n) * n;
+        if (settings.surface_moves) along -= settings.surface.along(closest, n, settings.back);
+        c.along = norm(along);
+      }
       visit(c, from + at);
+      stored += bears;
     }
   });
 }
 
-// Writes the impacts of a sphere to the list of records. Of impacts that begin in the same step the fastest comes first, so that they
-// depend neither on the numbers of features nor on rounding.
+// Writes the impacts of a sphere to the list of records, and what they wear off to its stored contacts. Of impacts that begin in the same
+// step the fastest comes first, so that they depend neither on the numbers of features nor on rounding.
 template <class Law, class Sphere, class Contacts>
 LSDCD_NOINLINE void record_impacts(const StepJob &job, const Sphere &sphere, const Contacts &set,
-                                   const Real *weight)
+                                   const Real *weight, StepContact *stored)
 {
   TakenAway taken;    // begins with what touches already, though the corner rule may hide it now
   for_each_struck<Law>(job, sphere, set, weight, [&](const StruckContact &c, int) {
@@ -114,9 +126,15 @@ LSDCD_NOINLINE void record_impacts(const StepJob &job, const Sphere &sphere, con
       found = i;
     });
     if (found < 0) return;
-    EnergyRecord record = {next.feature, next.mesh, 0, 0, 0};
-    add_impact(taken, next.strike, next.mass, job.settings.dt, job.records, record);
-    job.records.put(record);
+    if (job.records.impact_speed > 0) {
+      EnergyRecord record = {next.feature, next.mesh, 0, 0, 0};
+      add_impact(taken, next.strike, next.mass, job.settings.dt, job.records, record);
+      job.records.put(record);
+    }
+    if (job.records.oka)
+      stored[next.place].wear_power =
+          oka_power(taken, next.strike, next.along, job.mass[sphere.i], 2 * job.radius[sphere.i],
+                    job.settings.dt, *job.records.oka);
     taken.take(next.strike);
     last_speed = next.strike.speed;
     last = found;

@@ -285,7 +285,7 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
   }
   if constexpr (Law::kEnergy) close_books<Law>(job, sphere, marks);
   if constexpr (Law::kRecords && !Contacts::kHasArms)
-    if (may_have_impacts) record_impacts<Law>(job, sphere, set, weight);
+    if (may_have_impacts) record_impacts<Law>(job, sphere, set, weight, sink.contacts);
   if constexpr (Sphere::kSeveral) deepest.record(job, i);
   if constexpr (Law::kHistory)
     if (job.settings.stores) {    // the same for all meshes

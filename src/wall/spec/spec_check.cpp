@@ -165,6 +165,9 @@ class SpecCheck {
     if (!why.empty()) refuse("law", why);
     if (wall_.impact_speed > 0)
       refuse("impacts", "impacts of ellipsoids are not recorded: leave it out");
+    if (wall_.wears_by_impact())
+      refuse("wear", "oka wears by impacts, and those of ellipsoids are not recorded: take archard "
+                     "or finnie");
     if (wall_.side != Side::both)
       refuse("side", "ellipsoids have a wall with both sides alone: leave it out");
     if (wall_.device == Device::cuda)

@@ -21,14 +21,14 @@ WallSpec in_units(WallSpec spec, Real pressure, Real velocity)
     law.keeps_forces = spec.energy;
     law.keeps_at_nodes = spec.energy && spec.has_nodes();
     law.keeps_losses = spec.energy && spec.each_contact;
-    law.keeps_touch = spec.impact_speed > 0;
+    law.keeps_touch = spec.impact_speed > 0 || spec.wears_by_impact();
   };
   for (LawOfTypes &row : spec.laws) convert(row.law);
   for (MeshSpec &mesh : spec.meshes) {
     for (LawOfTypes &row : mesh.laws) convert(row.law);
     mesh.pressure /= pressure;
   }
-  spec.wear.per_work *= pressure;
+  if (!spec.wears_by_impact()) spec.wear.per_work *= pressure;
   if (spec.shapes) spec.device = Device::cpu;
   return spec;
 }

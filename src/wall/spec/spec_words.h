@@ -16,7 +16,7 @@ namespace lsdcd {
 // In the order of their enums.
 constexpr const char *kCornerWords[] = {"blend", "sum"}, *kSideWords[] = {"both", "in", "out"},
                      *kDeviceWords[] = {"auto", "cpu", "cuda"},
-                     *kWearWords[] = {"none", "archard", "finnie"};
+                     *kWearWords[] = {"none", "archard", "finnie", "oka"};
 
 template <std::size_t n>
 std::vector<std::string> all_words(const char *const (&words)[n])

@@ -100,8 +100,8 @@ struct WallSpec {
   Real rmax = 0;           // length; 0: the largest radius that there is
   int nearest = 0;         // primitives of wall per cell; 0: all
   std::size_t memory_budget = GridSettings().memory_budget;    // bytes, for each mesh
-  Wear wear;                                                   // K and H in pressure units
-  WearDeform wear_deform;                                      // of meshes that recede
+  Wear wear;                    // K and H in pressure units, E90 in length^3 and mass
+  WearDeform wear_deform;       // of meshes that recede
   int average_every = 0;        // steps of each mean of MeanLoads; 0: there is none
   bool contacts = false;        // for_contact_rows() will be called
   bool each_contact = false;    // for_contacts() will be called
@@ -120,6 +120,7 @@ struct WallSpec {
   // Returns how many numbers a sphere has in the contacts array; 0: there is none.
   int contact_columns() const;
   bool wears() const { return wear.model != WearModel::none; }
+  bool wears_by_impact() const { return wear.model == WearModel::oka; }
   // Returns whether wear moves the vertices of a mesh.
   bool recedes(const MeshSpec &mesh) const
   {
