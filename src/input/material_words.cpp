@@ -14,11 +14,12 @@
 
 namespace lsdcd {
 
-const char *const kMaterialSyntax = "granular [hertz/material|jkr|dmt] material FILE PARTICLE "
-                                    "[types I PARTICLE ...] [on WALL] [with "
-                                    "[MATERIAL] KEY VALUE ...] [sub-models, NULL for a number of "
-                                    "the file] mesh FILE [material WALL "
-                                    "[with ...]] [keywords]";
+const char *const kMaterialSyntax =
+    "granular [hertz/material|jkr|dmt|hysteretic/edem|thornton] material FILE PARTICLE "
+    "[types I PARTICLE ...] [on WALL] [with "
+    "[MATERIAL] KEY VALUE ...] [sub-models, NULL for a number of "
+    "the file] mesh FILE [material WALL "
+    "[with ...]] [keywords]";
 
 const MaterialWords kScriptWords = {"on", "with", kMaterialSyntax, "as the input script says"};
 

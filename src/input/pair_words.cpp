@@ -26,7 +26,8 @@ const char *const kSyntax =
     "[cutoff C], or pair_coeff I J law material FILE A [on B] ... [cutoff C]";
 
 const char *const kMaterialsSyntax =
-    "pair_coeff I J law [granular] [hertz/material|jkr|dmt] material FILE A [on B] [with "
+    "pair_coeff I J law [granular] [hertz/material|jkr|dmt|hysteretic/edem|thornton] material FILE "
+    "A [on B] [with "
     "[MATERIAL] KEY VALUE ...] [sub-models, NULL for a number of the file] [cutoff C]";
 const MaterialWords kPairWords = {kScriptWords.on, kScriptWords.with, kMaterialsSyntax,
                                   kScriptWords.as_given};

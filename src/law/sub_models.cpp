@@ -55,19 +55,28 @@ constexpr Parameter kCohesion =
     Parameter{"K", "energy/volume", 0, Tokens::kHuge, false, "cohesion_energy_density"}.to_power(0);
 
 // Of cohesion that acts beyond touch.
-constexpr Parameter kSurfaceTension = Parameter{"gamma", "force/length"}.to_power(1);
+constexpr Parameter kSurfaceTension =
+    Parameter{"gamma", "force/length", 0, Tokens::kHuge, false, "surface_tension"}.to_power(1);
 constexpr Parameter kContactAngle =
-    Parameter{"theta", "degrees", 0, 90}.to_power(0).mixed_by(Mixing::first);
+    Parameter{"theta", "degrees", 0, 90, false, "contact_angle"}.to_power(0).mixed_by(
+        Mixing::first);
 constexpr Parameter kOtherAngle =
-    Parameter{"theta2", "degrees", 0, 90, true}.to_power(0).mixed_by(Mixing::second);
-constexpr Parameter kBridgeVolume = Parameter{"V", "volume", kAboveZero}.to_power(3);
-constexpr Parameter kBridgeShare = share("C", kAboveZero);
-constexpr Parameter kConstantPull = Parameter{"F0", "force"}.to_power(2);
-constexpr Parameter kWeightShare = share("f");
+    Parameter{"theta2", "degrees", 0, 90, true, "contact_angle"}.to_power(0).mixed_by(
+        Mixing::second);
+constexpr Parameter kBridgeVolume =
+    Parameter{"V", "volume", kAboveZero, Tokens::kHuge, false, "bridge_volume"}.to_power(3);
+constexpr Parameter kBridgeShare =
+    share("C", kAboveZero, Tokens::kHuge, false, "bridge_volume_share");
+constexpr Parameter kConstantPull =
+    Parameter{"F0", "force", 0, Tokens::kHuge, false, "adhesive_force"}.to_power(2);
+constexpr Parameter kWeightShare = share("f", 0, Tokens::kHuge, false, "adhesive_force_fraction");
 constexpr Parameter kGravity = Parameter{"g", "force/mass"}.to_power(-1);
 constexpr Parameter kPullingSpring =
-    Parameter{"K", "force/length"}.to_power(1).mixed_by(Mixing::series);
-constexpr Parameter kPullingGap = Parameter{"delta", "length", kAboveZero}.to_power(1);
+    Parameter{"K", "force/length", 0, Tokens::kHuge, false, "adhesive_stiffness"}
+        .to_power(1)
+        .mixed_by(Mixing::series);
+constexpr Parameter kPullingGap =
+    Parameter{"delta", "length", kAboveZero, Tokens::kHuge, false, "adhesive_distance"}.to_power(1);
 
 // Of normal sub-models that yield.
 constexpr Parameter kLoading =

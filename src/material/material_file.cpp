@@ -17,7 +17,8 @@ namespace lsdcd {
 namespace {
 
 constexpr Real kAny = Tokens::kHuge;
-constexpr int kDeepest = 16;    // files that include files
+constexpr Real kFromZero = -1e-300;    // 0 is allowed
+constexpr int kDeepest = 16;           // files that include files
 
 const char *const kSyntax =
     "a file holds 'units si', 'include FILE', 'material NAME', 'pair NAME NAME', and under those "
@@ -170,11 +171,21 @@ const std::vector<Property> &properties()
       {"density", "kg/m3", 1, -3, 0, 0, kAny, false},
       {"surface_energy", "J/m2", 1, 0, -2, 0, kAny, false},
       {"thermal_conductivity", "W/m/K", 1, 1, -3, 0, kAny, false},
+      {"yield_strength", "Pa", 1, -1, -2, 0, kAny, false},
+      {"yield_pressure", "Pa", 1, -1, -2, 0, kAny, false},
+      {"contact_angle", "deg", 0, 0, 0, kFromZero, 90, false},
       {"restitution", "1", 0, 0, 0, 0, 1, true},
       {"sliding_friction", "1", 0, 0, 0, 0, kAny, true},
       {"rolling_friction", "1", 0, 0, 0, 0, kAny, true},
       {"rolling_damping", "1", 0, 0, 0, 0, kAny, true},
       {"cohesion_energy_density", "J/m3", 1, -1, -2, 0, kAny, true},
+      {"surface_tension", "N/m", 1, 0, -2, 0, kAny, true},
+      {"bridge_volume", "m3", 0, 3, 0, 0, kAny, true},
+      {"bridge_volume_share", "1", 0, 0, 0, 0, kAny, true},
+      {"adhesive_force", "N", 1, 1, -2, 0, kAny, true},
+      {"adhesive_force_fraction", "1", 0, 0, 0, 0, kAny, true},
+      {"adhesive_stiffness", "N/m", 1, 0, -2, 0, kAny, true},
+      {"adhesive_distance", "m", 0, 1, 0, 0, kAny, true},
   };
   return list;
 }

@@ -62,15 +62,14 @@ class LawFiller {
   MaterialLaw make()
   {
     MaterialLaw made;
-    GivenSubModel normal = {&granular_row(Family::normal, c_.normal),
-                            {modulus_, damping_number(), ratio_}};
-    if (c_.normal != "hertz/material") normal.numbers.push_back(surface_energy());
+    GivenSubModel normal = {&granular_row(Family::normal, c_.normal), {}};
+    for (const Parameter &p : normal.row->parameters) normal.numbers.push_back(normal_number(p));
     made.sub_models.push_back(normal);
     if (damping_.empty())
       made.sub_models.push_back({&granular_row(Family::damping, default_damping()), {}});
     if (!has_tangential_)
       made.sub_models.push_back(
-          {&granular_row(Family::tangential, "mindlin"), {NAN, 1, of_pair("sliding_friction")}});
+          {&granular_row(Family::tangential, "mindlin"), tangential_numbers()});
     for (const GivenSubModel &given : c_.beside) made.sub_models.push_back(filled(given));
     made.law = law_of(made.sub_models);
     made.name = "granular " + text_of(made.sub_models) + (c_.limit_damping ? " limit_damping" : "");
@@ -204,10 +203,35 @@ class LawFiller {
                 exact_text(ratio_) + " (the same E* and G*)");
   }
 
-  // No damping model with a restitution goes with an adhesive normal model.
+  // The restitution of hysteretic/edem is that of yielding.
+  bool yields_by_restitution() const { return c_.normal == "hysteretic/edem"; }
+
+  Real normal_number(const Parameter &p)
+  {
+    const std::string name = p.name;
+    if (name == "E") return modulus_;
+    if (name == "nu") return ratio_;
+    if (name == "gamma") return surface_energy();
+    if (name == "Y") return lesser("yield_strength");
+    if (name == "py") return lesser("yield_pressure");
+    return name == "e" ? of_pair("restitution") : damping_number();
+  }
+
+  // A normal model without E gets the stiffness 8 G* as a number, and has no dashpot along the wall, as it has none along the normal.
+  std::vector<Real> tangential_numbers()
+  {
+    const Real mu = of_pair("sliding_friction");
+    if (!yields_by_restitution()) return {NAN, 1, mu};
+    const Real kt = in_units(8 * contact_.shear, *find_property("youngs_modulus"), units_);
+    tell_more("tangential stiffness " + exact_text(kt) + ", 8 G*");
+    return {kt, 0, mu};
+  }
+
+  // No damping model with a restitution goes with a normal model that adheres or yields.
   std::string default_damping()
   {
     if (c_.normal == "hertz/material") return "coeff_restitution";
+    if (yields_by_restitution()) return "none";
     tell_more("no damping: " + c_.normal +
               " works with no damping model that takes a restitution; to have damping, write " +
               with_ + "eta VALUE damping velocity'");
@@ -238,6 +262,17 @@ class LawFiller {
     return of_pair("restitution");
   }
 
+  // The softer one of two materials yields.
+  Real lesser(const char *key)
+  {
+    const Real a = of_one(particle_, key);
+    if (same_) return in_script(particle_, key, a);
+    const Real b = of_one(wall_, key);
+    const MaterialSection &softer = a < b ? particle_ : wall_;
+    tell_more(std::string(key) + " of " + softer.first + ", which is the lesser");
+    return in_script(softer, key, std::fmin(a, b));
+  }
+
   // For different materials it is the geometric mean, as for dispersion forces (Israelachvili,
   // Intermolecular and Surface Forces).
   Real surface_energy()
@@ -262,13 +297,28 @@ class LawFiller {
     return mean;
   }
 
+  // A number of one material, which for one of both sides of the contact is that of this side. That of the wall is left out where the
+  // particle's is given or the same, as NULL means that then.
+  Real of_material(const Parameter &p, bool first_is_given)
+  {
+    if (p.mixing == Mixing::first)
+      return in_script(particle_, p.property, of_one(particle_, p.property));
+    if (p.mixing != Mixing::second) return conductivity();
+    if (first_is_given || same_) return NAN;
+    return in_script(wall_, p.property, of_one(wall_, p.property));
+  }
+
   // With the numbers that are properties of the materials.
   GivenSubModel filled(GivenSubModel given)
   {
-    for (std::size_t k = 0; k < given.numbers.size(); k++)
-      if (const char *property = given.row->parameters[k].property;
-          property && std::isnan(given.numbers[k]))
-        given.numbers[k] = find_property(property)->of_pair ? of_pair(property) : conductivity();
+    bool first_is_given = false;
+    for (std::size_t k = 0; k < given.numbers.size(); k++) {
+      const Parameter &p = given.row->parameters[k];
+      if (p.mixing == Mixing::first) first_is_given = !std::isnan(given.numbers[k]);
+      if (p.property && std::isnan(given.numbers[k]))
+        given.numbers[k] = find_property(p.property)->of_pair ? of_pair(p.property)
+                                                              : of_material(p, first_is_given);
+    }
     return given;
   }
 
@@ -329,11 +379,23 @@ std::vector<MaterialLaw> laws_of_materials(const std::vector<MaterialPair> &pair
   return laws;
 }
 
+const std::vector<std::string> &normals_of_materials()
+{
+  static const std::vector<std::string> names = {"hertz/material", "jkr", "dmt", "hysteretic/edem",
+                                                 "thornton"};
+  return names;
+}
+
 void check_normal_of_materials(const std::string &normal)
 {
-  if (normal != "hertz/material" && normal != "jkr" && normal != "dmt")
-    throw InputError("the normal model '" + normal +
-                     "' does not take material constants: use hertz/material, jkr or dmt");
+  const std::vector<std::string> &names = normals_of_materials();
+  if (std::find(names.begin(), names.end(), normal) != names.end()) return;
+  const bool has_stiffness =
+      normal == "hysteretic" || normal == "hysteretic/size" || normal == "eepa" || normal == "lepa";
+  throw InputError(
+      "the normal model '" + normal + "' does not take material constants" +
+      (has_stiffness ? ", as its stiffness is calibrated for grains of one size" : "") +
+      ": use hertz/material, jkr, dmt, hysteretic/edem or thornton");
 }
 
 void check_override(const Override &o)

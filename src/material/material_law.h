@@ -22,7 +22,7 @@ struct Override {
 struct MaterialPair {
   std::string file;    // as find_material_file() takes it
   std::string particle, wall;
-  std::string normal = "hertz/material";    // or jkr, dmt
+  std::string normal = "hertz/material";    // or another of normals_of_materials()
   std::vector<Override> overrides;
   // Beside the normal sub-model. By default the damping is by the restitution, and the tangential sub-model mindlin.
   std::vector<GivenSubModel> beside;
@@ -56,6 +56,9 @@ MaterialLaw law_of_materials(const MaterialPair &pair, const std::string &units,
 // all pairs is refused.
 std::vector<MaterialLaw> laws_of_materials(const std::vector<MaterialPair> &pairs,
                                            const std::string &units, const MaterialWords &words);
+
+// Returns the normal sub-models whose numbers are properties of materials.
+const std::vector<std::string> &normals_of_materials();
 
 // Throws InputError where a normal sub-model takes no material, or an override is none.
 void check_normal_of_materials(const std::string &normal);

@@ -17,10 +17,11 @@ namespace lsdcd {
 
 namespace {
 
-const MaterialWords kWords = {"--on", "--with",
-                              "lsdcd material FILE NAME [--on WALL] [--normal "
-                              "hertz/material|jkr|dmt] [--with [MATERIAL] KEY VALUE ...]",
-                              "as the options say"};
+const MaterialWords kWords = {
+    "--on", "--with",
+    "lsdcd material FILE NAME [--on WALL] [--normal "
+    "hertz/material|jkr|dmt|hysteretic/edem|thornton] [--with [MATERIAL] KEY VALUE ...]",
+    "as the options say"};
 
 struct MaterialOptions {
   std::string file, name, wall, normal = "hertz/material", units = "si";
@@ -127,6 +128,11 @@ void print(const MaterialOptions &o, const MaterialLaw &law)
   std::printf("%s\n", law.report.c_str());
   std::printf("  %s\n", law.name.c_str());
   if (!o.wall.empty()) return;
+  if (law.law.yields()) {
+    std::printf("grains on one another, with pair_style granular/lsdcd:\n  pair_coeff * * law %s\n",
+                law.name.c_str());
+    return;
+  }
   const std::string old = text_of(sub_models_of_29sep2021(law.sub_models)),
                     recent = text_of(law.sub_models);
   std::printf("grains on one another, with pair_style granular of LAMMPS 29Sep2021 and later:\n");
@@ -171,7 +177,7 @@ void add_material_command(Command &program)
   command.option("name", o->name, "material of the grains");
   command.option("--on", o->wall, "material of the wall (default: the same)");
   command.option("--normal", o->normal, "normal sub-model of the contact")
-      .one_of({"hertz/material", "jkr", "dmt"})
+      .one_of(normals_of_materials())
       .shows_default();
   command.option("--units", o->units, "units of the input script")
       .one_of({"si", "cgs", "micro", "nano"})

@@ -816,8 +816,8 @@ pair soft soft
         text = lmp.run_well(script(ours(*two, *more), steps=0, data="two.data", units="si"), folder)
         fact(f"{'no ' * bool(more)}types are mixed of two materials", ("a file says of both materials comes by pair_coeff 1 2 law material FILE A on B" in text) == (not more),
              text[-800:])
-    syntax = (". Syntax: pair_coeff I J law [granular] [hertz/material|jkr|dmt] material FILE A [on B] [with [MATERIAL] KEY VALUE ...] [sub-models, NULL for a number "
-              "of the file] [cutoff C]")
+    syntax = (". Syntax: pair_coeff I J law [granular] [hertz/material|jkr|dmt|hysteretic/edem|thornton] material FILE A [on B] [with [MATERIAL] KEY VALUE ...] "
+              "[sub-models, NULL for a number of the file] [cutoff C]")
     for name, words, says in (("file", "", "the file name is missing"), ("second material", " mine.lsdcd soft hard", "'hard' is not a keyword: if it is the material of the "
                                "other grain, write 'on hard'"), ("other", " mine.lsdcd soft on", "after 'on' the material of the other grain is missing"),
                               ("word behind", " mine.lsdcd soft damping tsuji more", "'more' is not expected"),

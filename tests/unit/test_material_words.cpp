@@ -25,6 +25,15 @@ const char *const kFile = "units si\n"
                           "  poissons_ratio 0.3 1\n"
                           "  surface_energy 0.08 J/m2\n"
                           "  thermal_conductivity 51 W/m/K\n"
+                          "  yield_strength 250e6 Pa\n"
+                          "  yield_pressure 1.6e9 Pa\n"
+                          "  contact_angle 70 deg\n"
+                          "material sand\n"
+                          "  youngs_modulus 69e9 Pa\n"
+                          "  poissons_ratio 0.23 1\n"
+                          "  yield_strength 40e6 Pa\n"
+                          "  yield_pressure 5e9 Pa\n"
+                          "  contact_angle 0 deg\n"
                           "material bare\n"
                           "pair glass glass\n"
                           "  restitution 0.97 1 # measured\n"
@@ -34,7 +43,17 @@ const char *const kFile = "units si\n"
                           "  cohesion_energy_density 5e4 J/m3\n"
                           "pair glass steel\n"
                           "  restitution 0.9 1\n"
-                          "  sliding_friction 0.2 1\n";
+                          "  sliding_friction 0.2 1\n"
+                          "pair sand steel\n"
+                          "  restitution 0.4 1\n"
+                          "  sliding_friction 0.5 1\n"
+                          "  surface_tension 0.072 N/m\n"
+                          "  bridge_volume 1e-12 m3\n"
+                          "  bridge_volume_share 0.001 1\n"
+                          "  adhesive_force 2e-3 N\n"
+                          "  adhesive_force_fraction 0.4 1\n"
+                          "  adhesive_stiffness 20 N/m\n"
+                          "  adhesive_distance 1e-4 m\n";
 
 struct MaterialWordsTest : ::testing::Test {
   TempDir folder;
@@ -228,6 +247,45 @@ TEST_F(material_words, give_the_harmonic_mean_of_conductivities)
   EXPECT_NEAR(std::stod(heat[2]), 3.29032258e5, 1e-2);
 }
 
+// The softer material yields. Without E in the normal sub-model the stiffness of friction is 8 G*.
+TEST_F(material_words, give_the_numbers_of_contacts_that_yield)
+{
+  const Real shear = 1 / (2 * (2 - 0.23) * 1.23 / 69e9 + 2 * (2 - 0.3) * 1.3 / 207e9);
+  const std::vector<std::string> edem =
+      fill("granular hysteretic/edem material FILE sand on steel");
+  EXPECT_EQ(std::vector<std::string>(edem.begin(), edem.begin() + 8),
+            words("granular hysteretic/edem 4e+07 0.4 damping none tangential mindlin"));
+  EXPECT_NEAR(std::stod(edem.at(8)), 8 * shear, 1e-12 * shear);
+  EXPECT_EQ(edem.at(9), "0");
+  const std::vector<std::string> thornton = fill("granular thornton material FILE sand on steel");
+  EXPECT_EQ(thornton.at(1), "thornton");
+  EXPECT_EQ(thornton.at(5), "1.6e+09");
+  EXPECT_EQ(std::vector<std::string>(thornton.begin() + 6, thornton.end()),
+            words("damping none tangential mindlin NULL 1 0.5"));
+  EXPECT_TRUE(
+      says(error_of("granular eepa material FILE sand"),
+           {"'eepa' does not take material constants", "calibrated for grains of one size"}));
+}
+
+// NULL for the angle of the wall is that of the particle where the script gives this one.
+TEST_F(material_words, fill_the_numbers_of_cohesion_across_a_gap)
+{
+  const auto cohesion = [&](const std::string &numbers, const std::string &units = "si") {
+    const std::string name =
+        filled("granular material FILE sand on steel cohesion " + numbers, units);
+    return name.substr(name.find("cohesion"));
+  };
+  EXPECT_EQ(cohesion("capillary NULL NULL NULL NULL"), "cohesion capillary 0.072 0 70 1e-12");
+  EXPECT_EQ(cohesion("capillary 0.05 20 NULL 2e-12"), "cohesion capillary 0.05 20 NULL 2e-12");
+  EXPECT_EQ(cohesion("capillary/share NULL NULL 30 NULL"),
+            "cohesion capillary/share 0.072 0 30 0.001");
+  EXPECT_EQ(cohesion("constant NULL NULL"), "cohesion constant 0.002 1e-04");
+  EXPECT_EQ(cohesion("constant/weight NULL 9.81 NULL"), "cohesion constant/weight 0.4 9.81 1e-04");
+  EXPECT_EQ(cohesion("linear NULL NULL"), "cohesion linear 20 1e-04");
+  // dyn/cm, cm3
+  EXPECT_EQ(cohesion("capillary NULL NULL NULL NULL", "cgs"), "cohesion capillary 72 0 70 1e-06");
+}
+
 TEST_F(material_words, leave_the_words_of_the_fix_alone)
 {
   const MeshSpec mesh = wall("granular material FILE glass mesh rolling cache sds").meshes[0];
@@ -401,11 +459,11 @@ TEST_F(material_words, wrong_ones_are_told_what_is_right)
        {"after 'on' the wall's material is missing", "the word 'mesh' was found instead"}},
       {"gloss mesh a", {"'gloss'", "'glass'"}},
       {"glass on steal mesh a", {"'steal'", "'steel'"}},
-      {"glass on copper mesh a", {"'copper'", "those are glass, steel, bare"}},
+      {"glass on copper mesh a", {"'copper'", "those are glass, steel, sand, bare"}},
       {"glass steel mesh a", {"'on steel'"}},
       {"steel mesh a",
        {"restitution of steel on steel", "with restitution VALUE", "pair steel steel"}},
-      {"bare mesh a", {"line 12", "'bare' has no youngs_modulus", "with youngs_modulus VALUE"}},
+      {"bare mesh a", {"line 21", "'bare' has no youngs_modulus", "with youngs_modulus VALUE"}},
       {"steel mesh a.stl material glass mesh b.stl", {"has no restitution of steel on steel"}},
       {"glass types 2 steel mesh a.stl material steel", {"has no restitution of steel on steel"}},
   };
