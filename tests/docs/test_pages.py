@@ -69,6 +69,7 @@ NEWER = "needs a newer LAMMPS: test_host runs it"
 NOT_RUN = {
     ("README.md", "./run build"): COMPILES,
     ("doc/shaped_grains.rst", "units        si\nplugin"): NEWER,
+    ("doc/fix_insert_lsdcd.rst", "molecule stones"): "needs headers of molecules; lammps.host.test_clump_insertion has such clumps",
     ("doc/install.md", "plugin load build-host"): NEWER,
     ("doc/install.md", "./run build"): COMPILES,
     ("doc/install.md", "./run package"): "compiles this tree; check_release.py looks into its packages",
