@@ -213,11 +213,11 @@ def run_well(*args, **kwargs):
     return done.stdout
 
 
-def run_in_a_row(scripts, folder):
+def run_in_a_row(scripts, folder, ranks=1, **more):
     """What each of the scripts prints. One start of LAMMPS runs them all, each after a `clear`, as a start takes longer than a short run. LAMMPS keeps a
     plugin through a `clear`; files of theirs need names of their own."""
     end = "---- end of a script\n"
-    said = run_well("clear\n".join(f'{script}print "{end.rstrip()}"\n' for script in scripts), folder, timeout=900)
+    said = run_well("clear\n".join(f'{script}print "{end.rstrip()}"\n' for script in scripts), folder, ranks, timeout=900, **more)
     return said.split(end)[:-1]
 
 

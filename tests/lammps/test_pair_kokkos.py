@@ -35,27 +35,37 @@ def prepare(folder):
     grains(folder, 3, name="three.data")
 
 
+def run_in_a_row(folder, texts, ranks=1, neigh="", name="out"):
+    """With Kokkos where `neigh` says which lists; of each script the dump and what LAMMPS says."""
+    before = f"package kokkos neigh {neigh}{' newton off' * (neigh == 'full')}\n" if neigh else ""
+    names = [f"{name}{k}" for k in range(len(texts))]
+    texts = [before + text.replace(f" {name} {COLUMNS[:4]}", f" {own} {COLUMNS[:4]}") for own, text in zip(names, texts)]
+    every = lmp.run_in_a_row(texts, folder, ranks, host=True, flags=lmp.FLAGS if neigh else PLAIN)
+    for said in every:
+        fact(f"{neigh or 'plain'}: the pair style", ("granular/lsdcd/kk" in said or "granular/kk" in said) == bool(neigh), "")
+    return [(lmp.read_dump(folder / own), said) for own, said in zip(names, every)]
+
+
 def run(folder, text, ranks=1, neigh="", name="out"):
-    """With Kokkos where `neigh` says which lists; a dump and what LAMMPS says."""
-    flags = lmp.FLAGS if neigh else PLAIN
-    said = lmp.run_well((f"package kokkos neigh {neigh}{' newton off' * (neigh == 'full')}\n" if neigh else "") + text, folder, ranks, host=True, flags=flags)
-    fact(f"{neigh or 'plain'}: the pair style", ("granular/lsdcd/kk" in said or "granular/kk" in said) == bool(neigh), "")
-    return lmp.read_dump(folder / name), said
+    return run_in_a_row(folder, [text], ranks, neigh, name)[0]
 
 
-def as_plain(what, folder, text, tolerance=1e-10, ranks=(1,), lists=LISTS, sizes=()):
-    """Positions to torques, and the energy and the pressure, are those of the plain pair style. `sizes`: of columns (lmp.largest_difference)."""
-    plain, said = run(folder, text)
-    told = lmp.read_thermo(said)
+def all_as_plain(folder, texts, tolerance=1e-10, ranks=(1,), lists=LISTS, sizes=()):
+    """{what: script}: positions to torques, and the energy and the pressure, are those of the plain pair style. `sizes`: of columns
+    (lmp.largest_difference)."""
+    plains = run_in_a_row(folder, texts.values())
     for neigh in lists:
         for n in ranks:
-            own, said = run(folder, text, n, neigh)
-            where = f"{what}, {neigh} lists, {n} ranks"
-            at_most(where, lmp.largest_difference(plain, own, sizes), tolerance)
-            rows = lmp.read_thermo(said)
-            worst = max(abs(a - b) / max(abs(a), 1e-3) for p, q in zip(told, rows) for a, b in zip(p, q))
-            at_most(f"{where}: energy and pressure", worst, 1e-9)
-    return plain
+            for what, (plain, told), (own, said) in zip(texts, plains, run_in_a_row(folder, texts.values(), n, neigh)):
+                where = f"{what}, {neigh} lists, {n} ranks"
+                at_most(where, lmp.largest_difference(plain, own, sizes), tolerance)
+                worst = max(abs(a - b) / max(abs(a), 1e-3) for p, q in zip(lmp.read_thermo(told), lmp.read_thermo(said)) for a, b in zip(p, q))
+                at_most(f"{where}: energy and pressure", worst, 1e-9)
+    return [plain for plain, _ in plains]
+
+
+def as_plain(what, folder, text, **more):
+    return all_as_plain(folder, {what: text}, **more)[0]
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -115,8 +125,7 @@ def test_many_laws(folder):
     one = [f"{i} {i} {GRANULAR.replace('1e4', e)}" for i, e in ((1, "1e4"), (2, "2e4"), (3, "3e4"))]
     several = ["1 1 " + GRANULAR, "2 2 " + FULL, "3 3 law hooke 1e4 NULL 30 NULL 0.4 1", "1 2 law hooke/history 1e4 NULL 30 NULL 0.4 1",
                "1 3 jkr 1e4 5 0.3 3 tangential mindlin 1e3 0.5 0.4", "2 3 " + FULL]
-    for name, laws in (("one kind", one), ("several kinds", several)):
-        as_plain(name, folder, script(ours(*laws), data="three.data"), ranks=(1, 2))
+    all_as_plain(folder, {name: script(ours(*laws), data="three.data") for name, laws in (("one kind", one), ("several kinds", several))}, ranks=(1, 2))
 
 
 @pytest.mark.parametrize("slice", SLICES)
@@ -136,20 +145,20 @@ def test_types_change(folder):
     between = change.format(5) + "run 20\n" + change.format(7) + "run 20 pre no\n"
     restart = "write_restart r\nclear\n" + settings() + "read_restart r\n" + laws + "\n" + change.format(7) + \
         f"fix i all nve/sphere\ntimestep {DT}\n" + dump("out", 20) + "run 20\n"
-    as_plain("between runs", folder, script(laws, data="three.data") + between, ranks=(1, 2))
-    as_plain("after run 0", folder, script(laws, data="three.data") + "run 0\n" + change.format(7) + "run 20 pre no\n", ranks=(1, 2))
-    as_plain("after a restart", folder, script(laws, data="three.data") + restart, ranks=(1, 2))
+    texts = {"between runs": script(laws, data="three.data") + between,
+             "after run 0": script(laws, data="three.data") + "run 0\n" + change.format(7) + "run 20 pre no\n",
+             "after a restart": script(laws, data="three.data") + restart}
     for every in (1, 30):
         more = f"neigh_modify delay 0 every {every} check no\nneighbor 0.5 bin\nvariable type atom 1+((id+floor(step/20))%3)\nfix change all set 1 0 group all type v_type"
-        as_plain(f"in a run, lists each {every}", folder, script(laws, data="three.data", more=more), ranks=(1, 2))
+        texts[f"in a run, lists each {every}"] = script(laws, data="three.data", more=more)
+    all_as_plain(folder, texts, ranks=(1, 2))
 
 
 def test_fix_set(folder):
     """Radii and masses of grains on both sides of the face between processes are those of the plain pair style while fix set changes them."""
-    for every in (1, 5):
-        for newton, rigid in (("off", False), ("on", False), ("off", True), ("on", True)):
-            as_plain(f"set each {every}, newton {newton}, rigid {rigid}", folder, changed_by_fix_set(every, newton, rigid), ranks=(1, 2),
-                     lists=LISTS if newton == "off" else LISTS[:1])
+    for newton in ("off", "on"):
+        all_as_plain(folder, {f"set each {every}, newton {newton}, rigid {rigid}": changed_by_fix_set(every, newton, rigid)
+                              for every in (1, 5) for rigid in (False, True)}, ranks=(1, 2), lists=LISTS if newton == "off" else LISTS[:1])
 
 
 @pytest.mark.parametrize("neigh", LISTS)
