@@ -20,8 +20,8 @@ constexpr Real kBallVolume = 4.0 / 3 * kPi;    // over the cube of the radius
 
 struct Grain {
   std::int64_t number;    // from 0
-  Real radius,
-      density;    // of a grain with a shape and of a clump: the radius of the sphere around it
+  // Of a grain with a shape and of a clump the radius is that of the sphere around it.
+  Real radius, density;
   std::size_t kind = 0;       // index of GrainRecipe::kinds
   Real bulk = kBallVolume;    // volume over the cube of the radius
 
@@ -53,8 +53,8 @@ struct GrainRecipe {
   };
   std::vector<Size> sizes;           // empty: uniform between the next two
   Real smallest = 0, largest = 0;    // diameters, of the spheres around grains with a shape
-  std::vector<GrainKind>
-      kinds;    // empty: spheres of these sizes; else all have shapes, or all are clumps
+  // Empty: spheres of these sizes; else all have shapes, or all are clumps.
+  std::vector<GrainKind> kinds;
   bool is_turned_at_random = true;    // grains of kinds; else they have the next turn
   Quaternion turn;                    // from the axes of a grain to the box
   Real density_lo = 0, density_hi = 0;

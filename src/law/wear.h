@@ -15,19 +15,19 @@ enum class WearModel { none, archard, finnie, oka };
 // The numbers of oka, which is a law of one impact: the volume E90 g(a) (v/v')^k2 (D/D')^k3 comes off for each mass of grains that
 // strike at the speed v under the angle a, of the diameter D (Oka, Okamura and Yoshida 2005).
 struct OkaWear {
-  Real hardness =
-      0;    // of the wall (Vickers), GPa in all units, as n1 and n2 are fitted for these
+  // Of the wall (Vickers), GPa in all units, as n1 and n2 are fitted for these.
+  Real hardness = 0;
   Real n1 = 0, n2 = 0;             // g(a) = (sin a)^n1 (1 + hardness (1 - sin a))^n2
   Real k2 = 0, k3 = 0;             // exponents of speed and diameter
   Real speed = 1, diameter = 1;    // v' and D', at which E90 was measured (length/time, length)
-  Real least_speed =
-      0;    // impacts that are not faster along the normal wear nothing (length/time)
+  // Impacts that are not faster along the normal wear nothing (length/time).
+  Real least_speed = 0;
 };
 
 struct Wear {
   WearModel model = WearModel::none;
-  Real per_work =
-      0;    // volume per work: K/H (archard), K (finnie); 1/pressure. Of oka E90: volume per mass
+  // Volume per work: K/H (archard), K (finnie); 1/pressure. Of oka E90: volume per mass.
+  Real per_work = 0;
   OkaWear oka = {};
 };
 
