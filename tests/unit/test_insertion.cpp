@@ -295,7 +295,9 @@ TEST(insertion, after_a_restart_shapes_go_on_as_they_were)
 TEST(insertion, words_of_shapes_that_make_no_grains_are_refused)
 {
   const auto says = [](const char *words, const char *what) {
-    std::istringstream text(std::string("region a number 5 dens 1 ") + words);
+    const bool has_density = std::string(words).rfind("mol", 0) != 0;    // clumps have their own
+    std::istringstream text(std::string("region a number 5 ") + (has_density ? "dens 1 " : "") +
+                            words);
     const std::vector<std::string> all{std::istream_iterator<std::string>(text), {}};
     EXPECT_TRUE(fails_with(what, [&] { parse_insert(all); })) << words;
   };
@@ -310,8 +312,9 @@ TEST(insertion, words_of_shapes_that_make_no_grains_are_refused)
   says("shape 3 3 1.6 diam one 1", "diam is of spheres and shape of other grains");
   says("diam one 1 orient random", "orient turns grains with a shape");
   says("mol stones rigid bodies diam one 1", "leave diam out");
+  says("mol stones dens 1 rigid bodies", "leave dens out");
   says("mol stones", "rigid is missing");
-  says("diam one 1 dens 1 rigid bodies", "rigid is of clumps");
+  says("diam one 1 rigid bodies", "rigid is of clumps");
   says("mol stones fraction 0.3 0.3 rigid bodies", "the fractions add up to 0.6");
   says("shape 3 3 1.6 orient 0 0 0 30", "the axis is 0 0 0");
   says("shape 3 3 1e-200", "a half-axis of a shape is 5e-201");
