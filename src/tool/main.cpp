@@ -22,9 +22,10 @@ int run(int argc, char **argv)
   Program program("lsdcd: meshes of DEM walls, their grids, distances to them, bodies in them, "
                   "materials, shapes of grains, and reports and films of runs",
                   std::string("lsdcd ") + version() + (*LSDCD_COMMIT ? " (" LSDCD_COMMIT ")" : ""));
-  program.footer("lsdcd COMMAND --help shows its options and an example.\n"
-                 "Exit codes: 0: done; 1: a file or mesh cannot be used; 2: wrong arguments;\n"
-                 "3: repair has written what it cannot mend in full.");
+  program.footer(
+      "lsdcd COMMAND --help shows its options and an example.\n"
+      "Exit codes: 0: done; 1: a file or mesh cannot be used, or check has found what fails;\n"
+      "2: wrong arguments; 3: repair has written what it cannot mend in full.");
   int exit_code = kDone;
   add_inspect_command(program);
   add_repair_command(program, exit_code);
@@ -40,6 +41,7 @@ int run(int argc, char **argv)
   add_tradeoff_command(program);
   add_accuracy_command(program);
   add_effects_command(program);
+  add_check_command(program, exit_code);
   add_report_command(program);
   add_film_command(program);
   return program.run(argc, argv) ? exit_code : kUsage;

@@ -73,7 +73,7 @@ STYLES = {    # atoms, what acts, numbers that are printed
 JSON = {"inspect": "cube.stl", "repair": "cube.stl -o new.stl", "convert": "cube.stl -o new.off", "generate": "box --width 1 --depth 1 --height 1 -o box.stl",
         "grid": "cube.stl --radius 0.1", "distance": "cube.stl points.csv --radius 1 -o distances.csv", "collide": "cube.stl cube.stl --pose 0.5 0 0 -o pairs.csv",
         "material": "glass.lsdcd glass", "timestep": "--young 5e6 --poisson 0.25 --density 2500 --radius 0.002 --speed 1", "shape": "2 2 10 --density 1",
-        "clump": "cube.stl --spheres 2", "effects": ""}
+        "clump": "cube.stl --spheres 2", "effects": "", "check": "--seconds 0"}
 # Words, and how the program ends.
 CODES = {"inspect cube.stl": 0, "--version": 0, "inspect nowhere.stl": 1, "inspect": 2, "inspect cube.stl --colour red": 2, "repair open.stl -o mended.stl": 3}
 OPEN = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [0, 1, 0], [0, 0, 1]]

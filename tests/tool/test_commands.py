@@ -20,10 +20,10 @@ from triangles import cube
 NEEDS = {"inspect": "file is required", "repair": "file is required", "convert": "file is required",
          "generate": "subcommand is required", "grid": "file is required", "distance": "mesh is required", "collide": "wall is required",
          "material": "file is required", "timestep": "--radius is required", "shape": "lengths is required",
-         "clump": "give a mesh and --spheres, or --list", "tradeoff": "file is required", "accuracy": None, "effects": None,
+         "clump": "give a mesh and --spheres, or --list", "tradeoff": "file is required", "accuracy": None, "effects": None, "check": None,
          "report": "required: folder", "film": "required: folder"}
 # Words that make an example quick.
-QUICK = {"tradeoff": "--spheres 100 --moving 2 --repeats 1 --seconds 0.2 --device cpu --plot none"}
+QUICK = {"tradeoff": "--spheres 100 --moving 2 --repeats 1 --seconds 0.2 --device cpu --plot none", "check": "--seconds 0"}
 
 FINE_GRIDS = "accuracy table2 --spheres 1e5 --csv table2.csv"    # the example in its help
 ACCURACY = (FINE_GRIDS, ["0.994025", "table2.csv"])
@@ -87,6 +87,9 @@ GOOD = [
     ACCURACY,
     # Between grains: the number of the pair in the list and three numbers, with a rolling model three more; none of a belt.
     ("effects", ["hooke", "B/contact    B/pair", "56        32  hertz/history", "80        56  rolling sds", "0         -  surface_vel"]),
+    # Other programs are those of test_check.
+    ("check --seconds 0", ["CPU step  works", "All that is here works."]),
+    ("check --seconds 0 --json", {"works": True}),
     # The same numbers for programs.
     ("timestep --young 5e6 --poisson 0.25 --density 2500 --radius 0.002 --speed 1 --json",
      {"smallest_radius": 0.002, "set_by": "the impact of grain on grain", "too_soft": True}),
@@ -164,6 +167,9 @@ BAD = [    # words, exit code, what is said
     ("accuracy --spheres 1000 --segments 2", 2, ["--segments", "3"]),
     ("accuracy --spheres 1000 --repeats 0", 2, ["--repeats"]),
     ("accuracy --spheres 1000 --csv no/a.csv", 1, ["no/a.csv", NO_FILE]),
+    ("check --seconds -1", 2, ["--seconds", "-1 is not a number of 0 or more"]),
+    ("check --lmp ./nowhere", 1, ["--lmp ./nowhere: there is no such file"]),
+    ("check --plugin nowhere.so", 1, ["--plugin nowhere.so: there is no such file"]),
     ("effects --measure", 2, ["'--measure' is not an option of lsdcd effects"]),
     ("inspect wall.stl --scal 2", 2, ["'--scal' is not an option of lsdcd inspect", "'--scale'"]),
     ("inspect wall.stl --colour red", 2, ["'--colour' is not", "lsdcd inspect --help"]),

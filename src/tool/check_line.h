@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A line of `lsdcd check`.
+#pragma once
+
+#include <string>
+
+namespace lsdcd {
+
+enum class CheckState {
+  works,
+  absent,
+  fails
+};    // absent: this machine or this build has none, which is no error
+
+struct CheckLine {
+  std::string name;
+  CheckState state;
+  std::string tried, gave;
+  std::string remedy = {};    // empty where it works
+};
+
+}    // namespace lsdcd
