@@ -88,6 +88,7 @@ NOT_RUN = {
     ("doc/recipes.md", "surfaceMeshExtract"): "needs OpenFOAM",
     ("doc/report.md", "lsdcd report"): "needs the folder of a run; test_report.py and test_report_of_runs.py make some",
     ("doc/report.md", "lsdcd film"): "needs the folder of a run; test_film.py makes some",
+    ("doc/tool.md", "lsdcd check"): "starts what LAMMPS the machine has, and names one of the reader's; test_check.py runs it",
     ("doc/tool.md", "lsdcd report"): "needs the folder of a run; test_report.py and test_report_of_runs.py make some",
     ("doc/validation.md", "./run validate"): COMPILES,
     ("doc/tutorial.md", "paraview"): "opens a window; test_paraview runs its script",
