@@ -8,11 +8,8 @@
 
 namespace lsdcd {
 
-enum class CheckState {
-  works,
-  absent,
-  fails
-};    // absent: this machine or this build has none, which is no error
+// absent: this machine or this build has none, which is no error.
+enum class CheckState { works, absent, fails };
 
 struct CheckLine {
   std::string name;

@@ -23,8 +23,8 @@ void add_clump_command(Command &program);
 void add_tradeoff_command(Command &program);
 void add_accuracy_command(Command &program);
 void add_effects_command(Command &program);
-// Those of the Python package.
 void add_check_command(Command &program, int &exit_code);
+// Those of the Python package.
 void add_report_command(Program &program);
 void add_film_command(Program &program);
 

@@ -86,14 +86,15 @@ MaterialLaw law_of(const MaterialOptions &o)
 }
 
 // Returns the words of a linear spring in place of the sub-models of materials, for pair styles that take none. A head-on impact
-// of two bodies with this effective mass returns the restitution: gamma = 2 sqrt(kn/m) / sqrt(1 + (pi/ln e)^2). The stiffnesses are to
-// each other as those of Mindlin and Hertz, kt/kn = 2 (1 - nu)/(2 - nu), and friction is that of the materials.
+// of two bodies with this effective mass returns the restitution. The stiffnesses are to each other as those of Mindlin and Hertz,
+// kt/kn = 2 (1 - nu)/(2 - nu), and friction is that of the materials.
 std::string linear_words(const MaterialLaw &law, double kn, double mass)
 {
   const std::vector<Real> &normal =
       law.sub_models[0].numbers;    // modulus, restitution, Poisson's ratio
-  const Real nu = normal[2],
-             gamma = 2 * std::sqrt(kn / mass) / std::hypot(1, kPi / std::log(normal[1]));
+  const Real nu = normal[2];
+  // 0 is added because a restitution of 1 gives -0.
+  const Real gamma = 0 + std::sqrt(kn / mass) * restitution_damping(NormalModel::hooke, normal[1]);
   return "hooke " + number_text(kn) + " " + number_text(gamma) + " tangential linear_history " +
          number_text(kn * 2 * (1 - nu) / (2 - nu)) + " 1 " + number_text(law.law.mu) +
          " damping mass_velocity";
